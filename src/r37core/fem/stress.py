@@ -42,10 +42,10 @@ def interpolated(blocks: Blocks, values: np.ndarray, integration_points: bool) -
     if not integration_points:
         return values
     numbers = stress_numbers(blocks, True)
-    found = np.empty((sum(of_type.size for of_type in numbers.values()), values.shape[1]))
-    for name, element, of_nodes in typed_blocks(blocks, values):
-        found[numbers[name]] = element.shape_functions(element.stiffness_rule[0]) @ of_nodes
-    return found
+    fields = np.empty((sum(part.size for part in numbers.values()), values.shape[1]))
+    for name, element, nodal in typed_blocks(blocks, values):
+        fields[numbers[name]] = element.shape_functions(element.stiffness_rule[0]) @ nodal
+    return fields
 
 
 def recovered_stress(
@@ -89,14 +89,14 @@ def _averaged(
 ) -> np.ndarray:
     """Mean at each number of what its elements have there: tensors by the name of a type, its gradients and a field."""
     numbers = stress_numbers(blocks, integration_points)
-    length = sum(of_type.size for of_type in numbers.values()) if integration_points else len(points)
+    length = sum(part.size for part in numbers.values()) if integration_points else len(points)
     stress = np.zeros((len(COMPONENTS), length, fields))
     count = np.zeros(length)
     for name, element, coordinates in typed_blocks(blocks, points):
         members = numbers[name].ravel()
         count += np.bincount(members, minlength=length)
-        at = element.stiffness_rule[0] if integration_points else element.nodes
-        gradients, _ = element.physical_gradients(coordinates, at)
+        local = element.stiffness_rule[0] if integration_points else element.nodes
+        gradients, _ = element.physical_gradients(coordinates, local)
         for j in range(fields):
             field_stress = stress_of(name, gradients, j)
             for component, (a, b) in enumerate(COMPONENTS):

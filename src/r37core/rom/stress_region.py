@@ -74,11 +74,11 @@ class RegionMaker:
 
     def _region(self, choice: RegionChoice, elements: dict[str, np.ndarray], evaluated: np.ndarray) -> StressRegion:
         """The region with the elements that hold an evaluated point alone: others have no part in its mean."""
-        at = choice.integration_points
-        numbers = stress_numbers(elements, at)
+        inside = choice.integration_points
+        numbers = stress_numbers(elements, inside)
         touching = {name: np.isin(numbers[name], evaluated).any(axis=1) for name in elements}
         kept = {name: elements[name][touched] for name, touched in touching.items() if touched.any()}
-        nodes, places = _occurring(kept), interpolated(elements, self.mesh.parameters, at)
+        nodes, places = _occurring(kept), interpolated(elements, self.mesh.parameters, inside)
         return StressRegion(
             description=choice.description(),
             highest_frequency=choice.highest_frequency,
@@ -86,7 +86,7 @@ class RegionMaker:
             elements={name: np.searchsorted(nodes, block) for name, block in kept.items()},
             evaluated=np.searchsorted(_occurring({name: numbers[name][touching[name]] for name in kept}), evaluated),
             places=places[evaluated],
-            integration_points=at,
+            integration_points=inside,
         )
 
     def _stress_of_modes(self, elements: dict[str, np.ndarray], integration_points: bool) -> np.ndarray:
@@ -117,4 +117,4 @@ class RegionMaker:
 
 def _occurring(numbers: Mapping[str, np.ndarray]) -> np.ndarray:
     """Numbers that occur, of nodes or points by element type, ascending."""
-    return np.unique(np.concatenate([np.empty(0, int), *(of_type.ravel() for of_type in numbers.values())]))
+    return np.unique(np.concatenate([np.empty(0, int), *(part.ravel() for part in numbers.values())]))

@@ -40,13 +40,13 @@ def stress_operator(model: ReducedModel, material: Material) -> StressOperator:
 def _operator(model: ReducedModel, region: StressRegion, material: Material) -> StressOperator:
     nodes, band = region.nodes, _band(model, region)
     basis = nodes.basis if band is None else nodes.basis @ band[1]
-    evaluated, at = region.evaluated, region.integration_points
+    evaluated, inside = region.evaluated, region.integration_points
 
     def stress(fields: np.ndarray) -> np.ndarray:
-        return recovered_stress(region.elements, nodes.points, fields, material, at)[:, evaluated]
+        return recovered_stress(region.elements, nodes.points, fields, material, inside)[:, evaluated]
 
     def second_order(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-        return second_order_stress(region.elements, nodes.points, first, second, material, at)[:, evaluated]
+        return second_order_stress(region.elements, nodes.points, first, second, material, inside)[:, evaluated]
 
     rotation, large = nodes.rotation_shapes, None
     columns = [stress(basis), stress(rotation)]
