@@ -193,11 +193,12 @@ def reduction(settings):
 
 @pytest.fixture(scope="session")
 def reduced(mesh, matrices, steel, settings, boundary, reduction):
-    """Reduced models of the mesh; `others`: numbers of another reduction."""
+    """Reduced models of the mesh, with stress at nodes; `others`: numbers of another reduction."""
     from r37core.rom.reduce import reduce_blade
 
     def model(boundary=boundary, regions=None, **others):
-        regions = regions or settings.stress_regions("Ref")
+        shipped = settings.stress_regions("Ref").items()
+        regions = regions or {name: replace(region, integration_points=False) for name, region in shipped}
         return reduce_blade(mesh, matrices, steel, boundary, replace(reduction, **others), regions)
 
     return model

@@ -291,7 +291,7 @@ def test_a_changed_scene_in_python_is_alone(config_copy):
     file = config_copy / "config/scenes.yaml"
     shipped = {name: r37.scene(name, file=file).entry for name in r37.scenes(file=file)}
     assert shipped["material_abradable"].lining.bar_width_m is None and shipped["direct"].lining is None
-    bare = r37.scene("abradable", file=file, lining=None, results=["stress"])
+    bare = r37.scene("abradable", file=file, lining=None, friction={"form": "vector"}, results=["stress"])
     assert bare.entry == shipped["direct"].model_copy(update={"results": ["stress"]})
     for options in ({}, {"name": "Mine"}):
         bare = r37.scene("material_abradable", file=file, lining=None, results=["stress"], **options)

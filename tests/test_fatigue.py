@@ -13,7 +13,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
 from r37core.contact.scene import Rotor
-from r37core.fem.stress import nodal_stress
+from r37core.fem.stress import recovered_stress
 from r37core.figures.fatigue_map import draw_fatigue, draw_fatigue_map
 from r37core.mesh.mesh_files import write_vtu
 from r37core.results.datasets import write_sweep_dataset
@@ -132,7 +132,7 @@ def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
     amplitudes = rotation_amplitudes(whole.rotation_stiffening, 1340.0)
     displacement = np.einsum("nxj,tj->nxt", fields.basis[order], states)
     displacement += (fields.rotation_shapes[order] @ amplitudes)[..., None]
-    tensors = nodal_stress(mesh.blocks, mesh.points, displacement, steel)[:, region[places]]
+    tensors = recovered_stress(mesh.blocks, mesh.points, displacement, steel, False)[:, region[places]]
     mean = tensors.mean(axis=2, keepdims=True)
     alternating = von_mises(tensors - mean).max(axis=1)
     assert alternating.min() > 1e7
@@ -249,7 +249,10 @@ def test_lengths_above_the_line(responses):
 def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):
     write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
     region = model.stress_regions["box"].nodes.nodes
-    figures = [draw_fatigue(tmp_path / "mesh.vtu", region, read_judged(file), blade) for (blade, _), file in responses.items()]
+    figures = [
+        draw_fatigue(tmp_path / "mesh.vtu", mesh.points[region], read_judged(file), blade)
+        for (blade, _), file in responses.items()
+    ]
     worst = read_judged(responses["Strong", "direct"])["goodman_share"]
     title = f"Strong at {float(worst.idxmax()):g} rad/s: largest share {float(worst.max()):.3g}"
     assert figures[0].get_suptitle().startswith(title)

@@ -14,7 +14,9 @@ from integration_cases import DIRECT
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import InputFileError, Named
+from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
+from r37core.fem.stress import COMPONENTS, interpolated, recovered_stress, stress_at
 from r37core.results.columns import RANKING, column_named
 from r37core.results.datasets import response_of, write_sweep_dataset
 from r37core.results.interaction_choice import InteractionChoice
@@ -27,8 +29,9 @@ from r37core.rom import stress_region
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.region_choice import RegionChoice
+from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37core.rom.stress_region import StressRegion
-from r37core.stress.operator import StressOperator, read_stress_operators, write_stress_operators
+from r37core.stress.operator import StressOperator, read_stress_operators, von_mises, write_stress_operators
 from r37core.stress.recovery import stress_operator, stress_operators
 from r37core.stress.revolutions import largest_of_revolutions
 from r37core.stress.statistic import stress_statistic
@@ -125,7 +128,7 @@ def box_model(*fields):
     basis = np.stack([field(mesh.points) for field in fields], axis=2)
     nodes = RecoveryNodes(np.arange(len(mesh.points)), mesh.points, basis, np.zeros((len(mesh.points), 3, 1)))
     every = np.arange(len(mesh.points))
-    region = StressRegion("box", np.inf, nodes, dict(mesh.blocks), every, mesh.parameters)
+    region = StressRegion("box", np.inf, nodes, dict(mesh.blocks), every, mesh.parameters, False)
     return SimpleNamespace(stress_regions={"box": region}, size=len(fields), logarithmic_stiffness=None)
 
 
@@ -150,6 +153,54 @@ def test_stress_of_simple_states():
     assert levels[1] == pytest.approx(np.sqrt(3.0) * 180e9 / 2.6 * 1e-3, rel=1e-9)
     assert levels[2] == pytest.approx(180e9 * 1e-2 * 0.2, rel=1e-9)
     assert recovery.max_von_mises(np.array([[-2.0, 0.0, 0.0]]))[0] == pytest.approx(360e6)
+
+
+def test_stress_at_integration_points():
+    """Bending: Young's modulus times curvature times height, largest at the outer of three Gauss points through one layer."""
+    box = box_model(lambda p: np.stack([1e-2 * p[:, 0] * p[:, 2], 0 * p[:, 0], -0.5e-2 * p[:, 0] ** 2], axis=1))
+    region = box.stress_regions["box"]
+    count = 9 * len(region.elements["wedge15"])
+    region = replace(region, evaluated=np.arange(count), integration_points=True)
+    operator = stress_operator(
+        SimpleNamespace(**vars(box) | {"stress_regions": {"box": region}}), replace(MATERIAL, poissons_ratio=0.0)
+    )
+    np.testing.assert_allclose(operator.operator[0, :, 0], 180e7 * region.points[:, 2], rtol=1e-9)
+    assert region.points[:, 2].max() == pytest.approx(0.1 * (1.0 + np.sqrt(0.6)))
+    assert len(np.unique(region.points.round(9), axis=0)) == count
+
+
+def test_the_order_of_the_types_counts_for_nothing():
+    """A file may have an imported mesh's types in another order than the mesh."""
+    mesh = box_mesh(1.0, 0.5, 0.2, (2, 1, 1), element=lambda i, j, k: ("wedge15", "hexahedron20")[i])
+    turned = dict(reversed(mesh.blocks.items()))
+    assert list(turned) != list(mesh.blocks)
+    fields = mesh.points[:, [1, 2, 0], None] ** 2
+    for of in (
+        lambda b: interpolated(b, mesh.points, True),
+        lambda b: recovered_stress(b, mesh.points, fields, MATERIAL, True),
+    ):
+        np.testing.assert_array_equal(of(turned), of(mesh.blocks))
+
+
+def test_a_region_at_integration_points(model, mesh, steel, reduced, tmp_path, monkeypatch):
+    """Its candidates have the stress, computed element by element, and the largest of the first mode in the benchmark's box."""
+    choice = RegionChoice(maximum_x=0.197, minimum_z=0.0165, maximum_z=0.0265, integration_points=True)
+    monkeypatch.setattr(stress_region, "_MOST_POINTS", 20)
+    made = reduced(regions={"box": choice}, recover_whole_blade=True)
+    write_reduced_model(made, tmp_path / "rom.nc")
+    shape = made.modes(0.0, 1)[1]
+    operator = stress_operator(read_reduced_model(tmp_path / "rom.nc"), steel)
+    assert "at integration points" in operator.region
+    elements = choice.elements(mesh, np.empty(0, int))["wedge15"]
+    gradients, _ = ELEMENTS["wedge15"].physical_gradients(mesh.points[elements], ELEMENTS["wedge15"].stiffness_rule[0])
+    tensors = stress_at(gradients, (made.whole_blade.basis @ shape)[elements, :, 0], steel)
+    wanted = von_mises(np.array([tensors[..., a, b] for a, b in COMPONENTS]))
+    found = operator.von_mises(shape.T)[0]
+    assert found.max() == pytest.approx(wanted.max(), rel=1e-9)
+    nearest = np.abs(found[:, None] - wanted.ravel()).min(axis=1)
+    assert nearest.max() < 1e-9 * found.max() and len(found) < wanted.size
+    at_nodes = stress_operators(model, steel)["box"].max_von_mises(model.modes(0.0, 1)[1].T)
+    assert 1.15 < at_nodes / found.max() < 1.4
 
 
 def test_a_node_has_the_mean_stress_of_its_elements():
@@ -318,7 +369,7 @@ CHOICE = IntegrationChoice(8e-7, 6, 62, integrator="exact_modal", snapshots_per_
 def every_node(reduced):
     """The model that looks at all nodes of the airfoil."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(stress_region, "_MOST_NODES", 10**6)
+        patch.setattr(stress_region, "_MOST_POINTS", 10**6)
         return reduced()
 
 

@@ -62,7 +62,8 @@ def stress_of_run(settings: Any, rom: str, response: xr.Dataset, speed: float, c
     scene = from_plain(Scene, json.loads(response.attrs["scene_parameters"]))
     model, blade = read_reduced_model(rom), response.attrs["blade"]
     contact = contact_model(model, Path(rom).stem.removeprefix("rom_"))
-    choice = settings.integration_choice(blade, LINED if scene.lining else DIRECT, speed, [speed])
+    choice = settings.integration_choice(blade, LINED if scene.lining else DIRECT, speed)
+    changes = {"snapshot_revolutions": choice.revolutions, **changes}
     operator = box_operator(model, settings.blades[blade].material)
     wanted = {"spectrum_highest_order": 1, "wear_angles": 8, "stress": {BOX: operator}}
     numbers = run_speed(contact, speed, scene, replace(choice, **changes), ["stress"], **wanted)

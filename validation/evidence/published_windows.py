@@ -24,7 +24,7 @@ ELSEWHERE = (850.0, 1000.0, 1100.0, 1200.0, 1300.0, 1400.0, 1500.0, 1600.0, 1717
 CHOICES = {
     "perturbed": "friction 0.1% larger",
     "radial": "radial normal: a cylindrical casing",
-    "constant": "constant friction",
+    "form": "the other form of friction: vector on the lining, constant on the bare casing",
     "bars_0_8mm": "bars 0.8 mm wide",
     "bars_1_25mm": "bars 1.25 mm wide",
     "bars_2mm": "bars 2 mm wide",

@@ -45,7 +45,7 @@ VARIANTS: dict[str, dict[str, Any]] = {
     "default": {},
     "half the step": {"time_step": 0.5},
     "the published scheme and step": {"published": True},
-    "friction of constant direction": {"constant": True},
+    "friction against rotation and vibration": {"vector": True},
     "begun 1% below the crossing": {"start": -0.01},
     "begun 0.5% below the crossing": {"start": -0.005},
     "ended 6% above the crossing": {"stop": 0.06},
@@ -151,8 +151,8 @@ def _needed_rate(blade: str, files: tuple[str, str], plan: RunUps, campbell: xr.
         choice = replace(choice, time_step=changes["time_step"] * choice.time_step)
     if "published" in changes:
         choice = replace(choice, time_step=1e-7, integrator=CENTRAL_DIFFERENCE, shorten=False)
-    if "constant" in changes:
-        scene = replace(scene, friction=replace(scene.friction, vector=False))
+    if "vector" in changes:
+        scene = replace(scene, friction=replace(scene.friction, vector=True))
     model, recovery = read_contact_model(files[0]), stress_operator(read_reduced_model(files[1]), material)
     rows = []
     for rate in RATES:

@@ -12,7 +12,7 @@ from r37core.base.speeds import exact_text
 from r37core.exchange.importing.meshio_reader import quietly
 from r37core.exchange.orientation import OURS, Orientation
 from r37core.fem.material import Material
-from r37core.fem.stress import nodal_second_order_stress, nodal_stress
+from r37core.fem.stress import recovered_stress, second_order_stress
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.mesh_files import save_grid, vtk_grid
 from r37core.results.campbell import name_modes
@@ -75,7 +75,7 @@ def write_modes(
         names, frequencies, displacement = mode_shapes(model, speed, count)
         fields = {f"mode {name}": u @ target.orientation.rows for name, u in zip(names, displacement, strict=True)}
         if material is not None:
-            stress = nodal_stress(mesh.blocks, mesh.points, np.moveaxis(displacement, 0, 2), material)
+            stress = recovered_stress(mesh.blocks, mesh.points, np.moveaxis(displacement, 0, 2), material, False)
             fields |= dict(zip(map(modal_stress, names), von_mises(stress).T, strict=True))
         notes = dict(zip(map(modal_frequency, names), frequencies, strict=True))
         files[speed] = f"modes_{exact_text(speed)}"
@@ -148,10 +148,10 @@ def stress_of(
 
     def stress(field: np.ndarray) -> np.ndarray:
         fields = field[:, :, None]
-        first = nodal_stress(mesh.blocks, mesh.points, fields, material)[:, :, 0]
+        first = recovered_stress(mesh.blocks, mesh.points, fields, material, False)[:, :, 0]
         if model.logarithmic_stiffness is None:
             return first
-        return first + 0.5 * nodal_second_order_stress(mesh.blocks, mesh.points, fields, fields, material)[:, :, 0]
+        return first + 0.5 * second_order_stress(mesh.blocks, mesh.points, fields, fields, material, False)[:, :, 0]
 
     if model.logarithmic_stiffness is None or coordinates.shape[1] > model.size:
         return displacement, stress(displacement)

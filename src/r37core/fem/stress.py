@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .assembly import Blocks, typed_blocks
+from .elements import ELEMENTS
 from .material import Material
 from .strain import displacement_gradient, linear_strain, second_order_strain
 
@@ -21,44 +22,84 @@ def stress_at(gradients: np.ndarray, displacement: np.ndarray, material: Materia
     return material.stress(linear_strain(displacement_gradient(gradients, displacement)))
 
 
-def nodal_stress(blocks: Blocks, points: np.ndarray, displacement: np.ndarray, material: Material) -> np.ndarray:
-    """Stress at the nodes (Pa), shape (6, nodes, fields), components as in COMPONENTS; 0 at nodes of no element.
+def stress_numbers(blocks: Blocks, integration_points: bool) -> Blocks:
+    """Number of each point of each element at which stress is evaluated, shape (elements, points of the type) by type.
 
-    `displacement` (m), shape (nodes, 3, fields), of nodes at `points` (m). Each element's linear stress is evaluated at its own
-    nodes, where bending stress is largest, and averaged over the elements that share the node.
+    At nodes it is the node; the integration points of the stiffness are numbered through, types in alphabetical order.
+    """
+    if not integration_points:
+        return blocks
+    numbers, first = {}, 0
+    for name in sorted(blocks):
+        shape = len(blocks[name]), len(ELEMENTS[name].stiffness_rule[0])
+        numbers[name] = first + np.arange(shape[0] * shape[1]).reshape(shape)
+        first += numbers[name].size
+    return numbers
+
+
+def interpolated(blocks: Blocks, values: np.ndarray, integration_points: bool) -> np.ndarray:
+    """Values of the nodes, shape (nodes, n), at the points that stress_numbers numbers, by the shape functions."""
+    if not integration_points:
+        return values
+    numbers = stress_numbers(blocks, True)
+    fields = np.empty((sum(part.size for part in numbers.values()), values.shape[1]))
+    for name, element, nodal in typed_blocks(blocks, values):
+        fields[numbers[name]] = element.shape_functions(element.stiffness_rule[0]) @ nodal
+    return fields
+
+
+def recovered_stress(
+    blocks: Blocks, points: np.ndarray, displacement: np.ndarray, material: Material, integration_points: bool
+) -> np.ndarray:
+    """Linear stress (Pa), shape (6, numbers, fields), components as in COMPONENTS, by stress_numbers; 0 at nodes of no element.
+
+    `displacement` (m), shape (nodes, 3, fields), of nodes at `points` (m). Each element's stress is evaluated at its own
+    nodes, where bending stress is largest, and averaged over the elements that share the node; or at its integration points.
     """
 
     def stress(name: str, gradients: np.ndarray, field: int) -> np.ndarray:
         return stress_at(gradients, displacement[blocks[name], :, field], material)
 
-    return _averaged(blocks, points, displacement.shape[2], stress)
+    return _averaged(blocks, points, displacement.shape[2], stress, integration_points)
 
 
-def nodal_second_order_stress(
-    blocks: Blocks, points: np.ndarray, first: np.ndarray, second: np.ndarray, material: Material
+def second_order_stress(
+    blocks: Blocks,
+    points: np.ndarray,
+    first: np.ndarray,
+    second: np.ndarray,
+    material: Material,
+    integration_points: bool,
 ) -> np.ndarray:
-    """Stress by the strain of second order of two displacements, field by field, as nodal_stress has it: see strain.py."""
+    """Stress by the strain of second order of two displacements, field by field, as recovered_stress has it: see strain.py."""
 
     def stress(name: str, gradients: np.ndarray, field: int) -> np.ndarray:
         pair = (displacement_gradient(gradients, each[blocks[name], :, field]) for each in (first, second))
         return material.stress(second_order_strain(*pair))
 
-    return _averaged(blocks, points, first.shape[2], stress)
+    return _averaged(blocks, points, first.shape[2], stress, integration_points)
 
 
 def _averaged(
-    blocks: Blocks, points: np.ndarray, fields: int, stress_of: Callable[[str, np.ndarray, int], np.ndarray]
+    blocks: Blocks,
+    points: np.ndarray,
+    fields: int,
+    stress_of: Callable[[str, np.ndarray, int], np.ndarray],
+    integration_points: bool,
 ) -> np.ndarray:
-    """Mean at each node of what its elements have there: tensors by the name of a type, its gradients and a field."""
-    stress = np.zeros((len(COMPONENTS), len(points), fields))
-    count = np.zeros(len(points))
+    """Mean at each number of what its elements have there: tensors by the name of a type, its gradients and a field."""
+    numbers = stress_numbers(blocks, integration_points)
+    length = sum(part.size for part in numbers.values()) if integration_points else len(points)
+    stress = np.zeros((len(COMPONENTS), length, fields))
+    count = np.zeros(length)
     for name, element, coordinates in typed_blocks(blocks, points):
-        members = blocks[name].ravel()
-        count += np.bincount(members, minlength=len(points))
-        gradients, _ = element.physical_gradients(coordinates, element.nodes)
+        members = numbers[name].ravel()
+        count += np.bincount(members, minlength=length)
+        local = element.stiffness_rule[0] if integration_points else element.nodes
+        gradients, _ = element.physical_gradients(coordinates, local)
         for j in range(fields):
             field_stress = stress_of(name, gradients, j)
             for component, (a, b) in enumerate(COMPONENTS):
                 weights = field_stress[:, :, a, b].ravel()
-                stress[component, :, j] += np.bincount(members, weights=weights, minlength=len(points))
+                stress[component, :, j] += np.bincount(members, weights=weights, minlength=length)
     return stress / np.maximum(count, 1.0)[:, None]

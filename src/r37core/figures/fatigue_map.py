@@ -25,12 +25,12 @@ _DIRECTIONS = ((0.35, -1.0, -0.25), (0.35, 1.0, 0.25))
 
 
 def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str, further_runs: xr.Dataset | None = None) -> Figure:
-    """Draw as draw_fatigue does, at the nodes of the region that decides, of the reduced model in the file `rom`.
+    """Draw as draw_fatigue does, in the region that decides, of the reduced model in the file `rom`.
 
     `further_runs`: of a verdict, of whose nodes nothing is known; the title says where one has a larger share.
     """
     region = next(iter(read_reduced_model(rom).stress_regions.values()))
-    figure = draw_fatigue(mesh, region.nodes.nodes[region.evaluated], response, f"{title}, {region.description}")
+    figure = draw_fatigue(mesh, region.points, response, f"{title}, {region.description}")
     if further_runs is not None and has_strengths(further_runs) and further_runs["goodman_share"].notnull().any():
         worst = further_runs.sel(speed=further_runs["goodman_share"].idxmax("speed"))
         if worst["goodman_share"] > response["goodman_share"].max():
@@ -39,10 +39,10 @@ def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str, fu
     return figure
 
 
-def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, title: str) -> Figure:
-    """Draw the largest share of the Goodman line of each node, at the speed where one is largest, on both sides of the blade.
+def draw_fatigue(mesh: Path | str, points: np.ndarray, response: xr.Dataset, title: str) -> Figure:
+    """Draw the largest share of the Goodman line of each point, at the speed where one is largest, on both sides of the blade.
 
-    `mesh`: a .vtu; `nodes`, shape (stress nodes,): its numbers of the nodes that have stress; `response`: of the blade in a
+    `mesh`: a .vtu; `points` (m), shape (stress points, 3): where stress is; `response`: of the blade in a
     scene. Between the dots stress is not computed. Without strengths, or a run that ended, the figure says so.
     """
     if not has_strengths(response) or not response["goodman_share"].notnull().any():
@@ -61,8 +61,8 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
     for axes in panels:
         axes.set_axis_off()
     for number, (side, seen_from) in enumerate(zip(_sides(grid), _DIRECTIONS, strict=True)):
-        for axes, close_up in zip(panels[2 * number :], (None, grid.points[nodes]), strict=False):
-            axes.imshow(_rendered(surface, grid.points[nodes], share, seen_from, close_up), interpolation="none")
+        for axes, close_up in zip(panels[2 * number :], (None, points), strict=False):
+            axes.imshow(_rendered(surface, points, share, seen_from, close_up), interpolation="none")
         panels[2 * number].set_title(side)
         panels[2 * number + 1].set_title("region of the stress")
     bar = figure.colorbar(ScalarMappable(Normalize(0.0, largest), _COLOUR_MAP), ax=panels, shrink=0.8)

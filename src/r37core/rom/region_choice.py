@@ -15,7 +15,8 @@ class RegionChoice:
 
     `excluded_layers`: elements that hold a contact node or a clamped node are left out, and so many further layers round them
     as this number exceeds one: there a force on a single node and the clamping give stresses that grow with a finer mesh.
-    `highest_frequency` (Hz): modes at rest above it do not count; infinite: all do.
+    `highest_frequency` (Hz): modes at rest above it do not count; infinite: all do. `integration_points`: stress is that of
+    each element at the points that integrate its stiffness, as finite-element programs print it, not the mean at its nodes.
     """
 
     minimum_span: Annotated[float, Key("Lowest share of the span", ge=0, le=1)] = 0.0
@@ -25,6 +26,14 @@ class RegionChoice:
     maximum_z: Annotated[float, Key("Upper bound of z", "_m", ge=-100, le=100)] = np.inf
     excluded_layers: Annotated[int, Key("Element layers left out round contact nodes and root", ge=0, le=20)] = 0
     highest_frequency: Annotated[float, Key("Highest frequency at rest of modes that count", "_hz", ge=1, le=1e6)] = np.inf
+    integration_points: Annotated[
+        bool,
+        Key(
+            "Where stress is evaluated: at nodes, averaged over elements, or at integration points",
+            name="evaluated_at",
+            words={"nodes": False, "integration_points": True},
+        ),
+    ] = False
 
     def description(self) -> str:
         """The region as results name it."""
@@ -35,7 +44,8 @@ class RegionChoice:
         layers = f"{self.excluded_layers} layer{'s' if self.excluded_layers > 1 else ''} of elements"
         text = ", ".join(parts) or "whole blade"
         text += f", without {layers} at contact nodes and root" if self.excluded_layers else ""
-        return text + (f", modes up to {self.highest_frequency:g} Hz" if np.isfinite(self.highest_frequency) else "")
+        text += f", modes up to {self.highest_frequency:g} Hz" if np.isfinite(self.highest_frequency) else ""
+        return text + (", at integration points" if self.integration_points else "")
 
     def elements(self, mesh: BladeMesh, contact_nodes: np.ndarray) -> dict[str, np.ndarray]:
         """Nodes of the elements all of whose nodes qualify, by element type."""

@@ -126,9 +126,10 @@ def _quadratic_terms(dataset: xr.Dataset) -> QuadraticTerms:
 def _region_variables(group: str, region: StressRegion) -> dict[str, tuple[Any, ...]]:
     """Variables of a region beside its nodes."""
     texts = {"description": region.description, "highest_frequency": region.highest_frequency}
-    evaluated = about("1", f"places of the evaluated nodes among {group}_nodes") | texts
+    texts |= {"integration_points": int(region.integration_points)}
+    evaluated = about("1", "places of the evaluated nodes, or integration points, among those of the elements") | texts
     variables: dict[str, tuple[Any, ...]] = {f"{group}_evaluated": (f"{group}_evaluated_node", region.evaluated, evaluated)}
-    places = about("1", "chord, span and thickness of the evaluated nodes")
+    places = about("1", "chord, span and thickness of the evaluated nodes or integration points")
     variables[f"{group}_places"] = (f"{group}_evaluated_node", "parameter"), region.places, places
     for kind, elements in region.elements.items():
         dims = f"{group}_{kind}", f"node_of_{kind}"
@@ -145,6 +146,7 @@ def _region(dataset: xr.Dataset, group: str) -> StressRegion:
         elements={name.removeprefix(elements): dataset[name].values for name in map(str, dataset) if name.startswith(elements)},
         evaluated=evaluated.values,
         places=dataset[f"{group}_places"].values,
+        integration_points=bool(evaluated.attrs["integration_points"]),
     )
 
 

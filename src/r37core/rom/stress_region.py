@@ -1,4 +1,4 @@
-"""Region of a blade whose stress is recovered from the reduced coordinates, and the nodes of it that are looked at."""
+"""Region of a blade whose stress is recovered from the reduced coordinates, and the points of it that are looked at."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from r37core.fem.material import Material
-from r37core.fem.stress import nodal_stress
+from r37core.fem.stress import interpolated, recovered_stress, stress_numbers
 from r37core.mesh.blade_mesh import BladeMesh
 
 from .deviatoric import deviatoric
 from .recovery_nodes import RecoveryNodes
 from .region_choice import RegionChoice
 
-_MOST_NODES = 500
-"""Nodes of a region above which stress is recovered at the candidates alone."""
+_MOST_POINTS = 500
+"""Points of a region above which stress is recovered at the candidates alone."""
 
 _MOST_MODES, _DRAWS, _AT_ONCE, _SEED = 32, 2000, 50, 0
 
@@ -23,8 +23,9 @@ _MOST_MODES, _DRAWS, _AT_ONCE, _SEED = 32, 2000, 50, 0
 class StressRegion:
     """Elements of a region, shape (elements, nodes of the type) by type, which index the `nodes`.
 
-    `evaluated`: those of the nodes where stress is recovered, by their place; `places`, shape (evaluated, 3): chord, span and
-    thickness there, as BladeMesh has them. `description`, `highest_frequency` (Hz): see RegionChoice.
+    `evaluated`: where stress is recovered, as stress_numbers numbers the elements' nodes or integration points; `places`, shape
+    (evaluated, 3): chord, span and thickness there, as BladeMesh has them. `description`, `highest_frequency` (Hz),
+    `integration_points`: see RegionChoice.
     """
 
     description: str
@@ -33,6 +34,12 @@ class StressRegion:
     elements: dict[str, np.ndarray]
     evaluated: np.ndarray
     places: np.ndarray
+    integration_points: bool
+
+    @property
+    def points(self) -> np.ndarray:
+        """Coordinates (m) of the evaluated points, shape (evaluated, 3)."""
+        return interpolated(self.elements, self.nodes.points, self.integration_points)[self.evaluated]
 
 
 @dataclass(frozen=True)
@@ -56,38 +63,42 @@ class RegionMaker:
         made = {}
         for name, choice in choices.items():
             elements = choice.elements(self.mesh, self.contact_nodes)
-            nodes = _nodes_of(elements)
-            if len(nodes) > _MOST_NODES:
+            evaluated = _occurring(stress_numbers(elements, choice.integration_points))
+            if len(evaluated) > _MOST_POINTS:
                 where = replace(choice, highest_frequency=np.inf)
                 if where not in every_mode:
-                    every_mode[where] = self._stress_of_modes(elements, nodes)
-                nodes = nodes[self._candidates(every_mode[where], choice.highest_frequency)]
-            made[name] = self._region(choice, elements, nodes)
+                    every_mode[where] = self._stress_of_modes(elements, choice.integration_points)
+                evaluated = evaluated[self._candidates(every_mode[where], choice.highest_frequency)]
+            made[name] = self._region(choice, elements, evaluated)
         return made
 
     def _region(self, choice: RegionChoice, elements: dict[str, np.ndarray], evaluated: np.ndarray) -> StressRegion:
-        """The region with the elements that hold an evaluated node alone: others have no part in its mean."""
-        touching = {name: nodes[np.isin(nodes, evaluated).any(axis=1)] for name, nodes in elements.items()}
-        kept = {name: nodes for name, nodes in touching.items() if len(nodes)}
-        nodes = _nodes_of(kept)
+        """The region with the elements that hold an evaluated point alone: others have no part in its mean."""
+        inside = choice.integration_points
+        numbers = stress_numbers(elements, inside)
+        touching = {name: np.isin(numbers[name], evaluated).any(axis=1) for name in elements}
+        kept = {name: elements[name][touched] for name, touched in touching.items() if touched.any()}
+        nodes, places = _occurring(kept), interpolated(elements, self.mesh.parameters, inside)
         return StressRegion(
             description=choice.description(),
             highest_frequency=choice.highest_frequency,
             nodes=self.recovery(nodes),
             elements={name: np.searchsorted(nodes, block) for name, block in kept.items()},
-            evaluated=np.searchsorted(nodes, evaluated),
-            places=self.mesh.parameters[evaluated],
+            evaluated=np.searchsorted(_occurring({name: numbers[name][touching[name]] for name in kept}), evaluated),
+            places=places[evaluated],
+            integration_points=inside,
         )
 
-    def _stress_of_modes(self, elements: dict[str, np.ndarray], nodes: np.ndarray) -> np.ndarray:
-        """Deviatoric stress of the lowest modes, then of rotation's shapes, shape (5, nodes, fields), float32."""
+    def _stress_of_modes(self, elements: dict[str, np.ndarray], integration_points: bool) -> np.ndarray:
+        """Deviatoric stress of the lowest modes, then of rotation's shapes, shape (5, points, fields), float32."""
+        nodes = _occurring(elements)
         moved = self.recovery(nodes)
         fields = np.concatenate([moved.basis @ self.modes[:, :_MOST_MODES], moved.rotation_shapes], axis=2)
         local = {name: np.searchsorted(nodes, block) for name, block in elements.items()}
-        return deviatoric(nodal_stress(local, moved.points, fields, self.material))
+        return deviatoric(recovered_stress(local, moved.points, fields, self.material, integration_points))
 
     def _candidates(self, stress: np.ndarray, highest_frequency: float) -> np.ndarray:
-        """Places of the nodes that have the largest stress in some of many motions; stress as above.
+        """Places of the points that have the largest stress in some of many motions; stress as above.
 
         Motions are drawn by chance, so that every mode can be the one that decides.
         """
@@ -104,6 +115,6 @@ class RegionMaker:
         return np.unique(np.concatenate(worst))
 
 
-def _nodes_of(elements: dict[str, np.ndarray]) -> np.ndarray:
-    """Numbers of the nodes of elements, ascending."""
-    return np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in elements.values())]))
+def _occurring(numbers: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Numbers that occur, of nodes or points by element type, ascending."""
+    return np.unique(np.concatenate([np.empty(0, int), *(part.ravel() for part in numbers.values())]))

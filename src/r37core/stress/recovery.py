@@ -7,7 +7,7 @@ import numpy as np
 import scipy.linalg as la
 
 from r37core.fem.material import Material
-from r37core.fem.stress import nodal_second_order_stress, nodal_stress
+from r37core.fem.stress import recovered_stress, second_order_stress
 from r37core.rom.quadratic_terms import mode_pairs
 from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.rotation import rotation_amplitudes
@@ -17,7 +17,7 @@ from .operator import StressOperator, judged_operator
 
 
 def stress_operators(model: ReducedModel, material: Material) -> dict[str, StressOperator]:
-    """Stress in the model's regions, by name, averaged over the region's elements that share a node.
+    """Stress in the model's regions, by name: at integration points, or averaged over the region's elements that share a node.
 
     A region without elements is left out. Raises ValueError where the first one, which decides, has none, and where no mode is
     below a region's highest frequency.
@@ -40,13 +40,13 @@ def stress_operator(model: ReducedModel, material: Material) -> StressOperator:
 def _operator(model: ReducedModel, region: StressRegion, material: Material) -> StressOperator:
     nodes, band = region.nodes, _band(model, region)
     basis = nodes.basis if band is None else nodes.basis @ band[1]
-    evaluated = region.evaluated
+    evaluated, inside = region.evaluated, region.integration_points
 
     def stress(fields: np.ndarray) -> np.ndarray:
-        return nodal_stress(region.elements, nodes.points, fields, material)[:, evaluated]
+        return recovered_stress(region.elements, nodes.points, fields, material, inside)[:, evaluated]
 
     def second_order(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-        return nodal_second_order_stress(region.elements, nodes.points, first, second, material)[:, evaluated]
+        return second_order_stress(region.elements, nodes.points, first, second, material, inside)[:, evaluated]
 
     rotation, large = nodes.rotation_shapes, None
     columns = [stress(basis), stress(rotation)]
