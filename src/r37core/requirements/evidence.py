@@ -108,7 +108,7 @@ class Evidence:
         """
         speeds, drift = self.response["speed"].values, self.response.get("stress_drift", xr.DataArray(0.0))
         inside = np.where(self.operates & np.isfinite(near), near, 0.0)
-        highest = max(reach_of_peaks(speeds, inside).max(), (inside * (1.0 + drift.fillna(0.0).values)).max())
+        highest = max(peak_reach(speeds, inside).max(), (inside * (1.0 + drift.fillna(0.0).values)).max())
         return bool(highest > (1.0 + error) * inside.max())
 
     @property
@@ -170,7 +170,7 @@ class Evidence:
         return self.replaced(runs.assign(changed))
 
 
-def reach_of_peaks(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
+def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
     """How high each peak of positive `values` may be between ascending `speeds`, shape (speeds,); elsewhere the values.
 
     By the parabola of 1/value^2 through three speeds, which is that of a resonance, infinite where its top is below 0. Where

@@ -26,13 +26,13 @@ from r37core.sweep.parts import Parts
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
 from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
-from r37core.time_integration.settling import drift_of, window_of
+from r37core.time_integration.settling import remaining_drift, window_of
 from r37core.time_integration.simulate import TIP_POINTS, Simulation
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import numbers_of_run
 
 from .choice import CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, STEP, Requirements
-from .evidence import OF_ALL, Evidence, reach_of_peaks
+from .evidence import OF_ALL, Evidence, peak_reach
 from .judging import (
     CLEARLY,
     COARSER_MESH,
@@ -126,7 +126,7 @@ class JudgedBlade:
             history = np.nan_to_num(numbers["revolution_von_mises"])
             row["max_von_mises_of_run"] = history.max(axis=1)
             ended = np.isfinite(numbers["settled_revolution"]) or not history[:, -1].all()
-            row["stress_drift"] = np.array([0.0 if ended else drift_of(each, window_of(len(each))) for each in history])
+            row["stress_drift"] = np.array([0.0 if ended else remaining_drift(each, window_of(len(each))) for each in history])
         return row
 
     def _dataset(self, files: Mapping[float, Path]) -> xr.Dataset:
@@ -209,7 +209,7 @@ def _closer(speeds: Sequence[float], step: float) -> list[float]:
 
 def _speeds_about_peaks(speeds: np.ndarray, near: np.ndarray, error: float) -> list[float]:
     """Middles of the intervals beside peaks from NEAR of a limit on that may be higher than known by more than an `error`."""
-    reach = reach_of_peaks(speeds, np.where(near < 1.0, near, 0.0))
+    reach = peak_reach(speeds, np.where(near < 1.0, near, 0.0))
     peaks = np.flatnonzero((reach >= NEAR) & (near < 1.0) & (reach > (1.0 + error) * near))
     highest = peaks[np.argsort(-near[peaks], kind="stable")[:_MOST_PEAKS]]
     beside = np.unique([*(highest - 1), *highest]).astype(int)

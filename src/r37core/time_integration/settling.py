@@ -86,10 +86,10 @@ def has_settled(rms: np.ndarray, window: int, wear_growth: float, risen: float) 
     windows = np.sqrt(np.mean(np.reshape(rms[len(rms) % window :] ** 2, (-1, window)), axis=1))
     before, last = windows[-2:]
     alike = abs(last - before) <= max(SAME * max(before, last), SAME_OF_LARGEST * windows.max())
-    return bool(alike and (last < DECAYED * windows.max() or abs(drift_of(rms[math.ceil(risen) :], window)) <= DRIFT))
+    return bool(alike and (last < DECAYED * windows.max() or abs(remaining_drift(rms[math.ceil(risen) :], window)) <= DRIFT))
 
 
-def drift_of(values: np.ndarray, window: int) -> float:
+def remaining_drift(values: np.ndarray, window: int) -> float:
     """Relative change that the means of the last three windows lead to within WINDOWS_AHEAD.
 
     `values`, positive, shape (revolutions,). Two equal steps go on as they are, smaller ones shrink by the same ratio; of two
