@@ -24,7 +24,15 @@ from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.kept_numbers import wear_numbers
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.rotor_simulation import RotorSimulation
-from r37core.time_integration.settling import NO_WEAR, MotionAtEnd, has_settled, motion_at_end, parts_of_run, revolution_rms
+from r37core.time_integration.settling import (
+    NO_WEAR,
+    MotionAtEnd,
+    has_settled,
+    motion_at_end,
+    parts_of_run,
+    remaining_drift,
+    revolution_rms,
+)
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import numbers_of_run, run_speed
@@ -226,6 +234,19 @@ def test_a_run_settles_when_two_windows_are_alike_and_nothing_wears():
     assert settled(of(1.0, 1.0), wear_growth=NO_WEAR) and not settled(of(1.0, 1.0), wear_growth=1.1 * NO_WEAR)
     # the windows are the last ones
     assert settled(np.concatenate([[9.0] * 3, of(1.0, 1.0)]))
+    # steps of 0.5% that go on would be a tenth, those that halve 0.5%; what goes up and down or scatters does not drift
+    assert not settled(of(1.0, 1.005, 1.01)) and settled(of(1.0, 1.01, 1.015)) and settled(of(1.0, 1.005, 1.0))
+    assert settled(of(1.0, 1.005, 1.01) + np.tile([0.02, -0.02], 15))
+    # not before the lobes have risen
+    assert settled(of(0.99, 0.995, 1.0, 1.0), risen=20.0)
+
+
+def test_a_drift_is_followed_as_it_shrinks():
+    """Of means that come nearer to 1 by a half in each window, and by the same step in each."""
+    halving, even = np.repeat(1.0 - 0.5 ** np.arange(3, 6), 10), np.repeat([1.0, 1.1, 1.2], 10)
+    assert remaining_drift(halving, 10) == pytest.approx((1.0 - halving[-1]) / halving[-1], rel=1e-5)
+    assert remaining_drift(even, 10) == pytest.approx(20 * 0.1 / 1.2) and remaining_drift(even[::-1], 10) < 0.0
+    assert remaining_drift(even[10:], 10) == pytest.approx(20 * 0.1 / 1.2)
 
 
 def test_parts_are_windows_and_each_revolution_has_its_rms():
