@@ -8,10 +8,11 @@ import xarray as xr
 from defaults import IntegrationChoice, Lining
 from integration_cases import ABRADABLE, DIRECT
 
+from r37core.contact.scene import DampingRow
 from r37core.requirements import looks as further_runs
 from r37core.requirements.choice import WIDTH, Requirements
 from r37core.requirements.evidence import Evidence
-from r37core.requirements.judging import DOWN, HALF_STEP, LESS_FRICTION, LOOKS, MORE_FRICTION, REST, UP
+from r37core.requirements.judging import DOWN, HALF_STEP, LARGE_CHANGES, LESS_FRICTION, LOOKS, MORE_FRICTION, REST, UP
 from r37core.requirements.looks import JudgedBlade, joined_looks, looks_in, looks_of
 from r37core.results.operating_range import OperatingRange
 from r37core.results.response import run_row
@@ -24,7 +25,13 @@ from r37core.time_integration.status import RunStatus
 
 CHOICE = IntegrationChoice(6.4e-6, 12, 62, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
-LINED = replace(ABRADABLE, lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_width=1e-3))
+LOW, HIGH, SOONER = LARGE_CHANGES
+LINED = replace(
+    ABRADABLE,
+    casing=replace(ABRADABLE.casing, rise_fraction=0.5),
+    damping_ratio=(DampingRow(0.0005, lowest=0.0, highest=0.5),),
+    lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_width=1e-3),
+)
 FLOWN = OperatingRange(1300.0, 1310.0)
 NEEDS = Requirements(used_lining=0.5)
 RESULTS = ("wear", "spectrum")
@@ -68,6 +75,9 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
     assert friction is not None
     expected = {
         REST: (rising, long),
+        LOW: (replace(rising, damping_ratio=0.0), long),
+        HIGH: (replace(rising, damping_ratio=0.5), long),
+        SOONER: (replace(rising, casing=replace(rising.casing, rise_revolutions=0.6)), long),
         MORE_FRICTION: (replace(rising, friction=replace(friction, coefficient=1.01 * friction.coefficient)), long),
         LESS_FRICTION: (replace(rising, friction=replace(friction, coefficient=0.99 * friction.coefficient)), long),
         HALF_STEP: (rising, replace(long, time_step=0.5 * CHOICE.time_step)),
@@ -80,7 +90,7 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
         run = found[name].sel(speed=1305.0)
         np.testing.assert_array_equal(run["rms_normal"].sel(tip_point="leading_edge"), row["rms_normal"][0])
         np.testing.assert_array_equal(run["amplitude"], row["amplitude"])
-    assert len(set(used.values())) == 4
+    assert len(set(used.values())) == 7
 
 
 def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
@@ -103,7 +113,7 @@ def test_stress_before_a_run_settles_is_known(contact, model, steel, lined):
     """The largest stress of all revolutions, which a run that keeps all of them says, lies before the statistic here."""
     stress = {"box": stress_operators(model, steel)["box"]}
     choice = replace(CHOICE, snapshots_per_revolution=31)
-    blade = replace(lined, scene=LINED, choice=choice, results=("stress",), stress=stress)
+    blade = replace(lined, scene=ABRADABLE, choice=choice, results=("stress",), stress=stress)
     speed = 1340.0
     (largest,) = blade.runs_from_rest([speed])["max_von_mises_of_run"].values
     every = replace(choice, revolutions=20, until_settled=True, snapshot_revolutions=20)
@@ -136,7 +146,18 @@ def test_other_friction_and_step_are_tried_closest_to_the_limit(lined, monkeypat
     assert all(found[name]["speed"].values.tolist() == [1302.5] for name in (MORE_FRICTION, LESS_FRICTION, HALF_STEP))
 
 
+def test_large_changes_are_tried_where_runs_fail_or_nearly_do(lined, monkeypatch):
+    """All speeds that fail, and else those nearest to the limit; of what fails clearly nothing else is run."""
+    monkeypatch.setattr(further_runs, "MOST_NEAR", 1)
+    monkeypatch.setattr(further_runs, "nearness", lambda _, of: 1.0 - 1e-3 * (of.speeds - 1302.5))
+    found = dict(looks_of(lined, NEEDS, evidence(used=4e-3, speeds=(1290.0, 1302.0, 1305.0, 1320.0))))
+    assert {name: runs["speed"].values.tolist() for name, runs in found.items()} == {name: [1302.0] for name in LARGE_CHANGES}
+    found = dict(looks_of(lined, NEEDS, evidence()))
+    assert all(found[name]["speed"].values.tolist() == [1300.0, 1302.5] for name in LARGE_CHANGES)
+
+
 def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
+    lined = replace(lined, scene=replace(LINED, casing=ABRADABLE.casing, damping_ratio=0.0005))
     assert dict(looks_of(lined, NEEDS, evidence(used=4e-3))) == {}
     quiet = evidence().response.assign(share_of_time_in_contact=("speed", np.zeros(3)))
     assert dict(looks_of(lined, NEEDS, evidence().replaced(quiet))) == {}

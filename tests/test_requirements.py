@@ -22,6 +22,7 @@ from r37core.requirements.evidence import Evidence, extended, worst_of
 from r37core.requirements.judging import (
     DOWN,
     FAILS,
+    LARGE_CHANGES,
     LESS_FRICTION,
     MEETS,
     NOT_APPLICABLE,
@@ -236,6 +237,12 @@ def test_a_verdict_holds_where_all_that_was_tried_agrees():
     assert verdict(NEEDS, looks={REST: loud, UP: quiet}) == FAILS
     looks = {REST: response(above(1110.0, 1110.0)), LESS_FRICTION: quiet.sel(speed=[1110.0])}
     assert note_of_unknown(NEEDS, looks=looks).startswith("meets with 1% less friction")
+    # and so does another damping, also of what fails clearly, of which no other run is from rest
+    _, high, _ = LARGE_CHANGES
+    note = note_of_unknown(NEEDS, loud, looks={high: quiet.sel(speed=slice(1100.0, 1120.0))})
+    assert note.startswith("meets with highest damping")
+    assert verdict(NEEDS, loud, looks={high: quiet.sel(speed=slice(1100.0, 1110.0))}) == FAILS
+    assert note_of_unknown(NEEDS, looks={REST: quiet, high: loud}).startswith("fails with highest damping by 25 rad/s")
     assert one(NEEDS, not_looked="no further runs of a rotor")["note"].startswith("no further runs of a rotor")
 
 
@@ -590,10 +597,10 @@ def test_a_range_that_is_not_run_is_remarked_on(with_requirements):
     (line,) = remarks(settings)
     assert "Ref in direct do not reach over 1100 to 1300 rad/s" in line
     assert not remarks(with_requirements(operating=RANGE))
-    # 80 from rest, 40 up and down each, 24 in three other ways
+    # 80 from rest, 40 up and down each, 24 in six other ways
     needs = {"above_yield_at_most_rad_s": 0}
     (line,) = remarks(with_requirements(operating=RANGE, requirements=needs, scenes=["direct"]))
-    assert "up to about 232 further runs of each blade and scene (1)" in line
+    assert "up to about 304 further runs of each blade and scene (1)" in line
     assert not remarks(with_requirements(operating=RANGE, requirements={"mass_at_most_kg": 1.0}))
 
 

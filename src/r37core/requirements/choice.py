@@ -15,8 +15,8 @@ STEP = 0.5 * WIDTH
 CARRIED_STEP = WIDTH
 """Step (rad/s) between the speeds that a motion is carried through."""
 
-MOST_NEAR, OTHERS = 24, 3
-"""Speeds, those nearest to the limit, that are run in so many other ways: with more and less friction and half the step."""
+MOST_NEAR, OTHERS = 24, 6
+"""Speeds, those nearest to the limit, that are run in so many other ways: with another damping, rise, friction and step."""
 
 LONGEST = 1000
 """Most revolutions of a run that ends as it has settled."""

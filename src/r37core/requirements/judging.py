@@ -21,7 +21,8 @@ MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot te
 
 UP, DOWN, REST = "carried up", "carried down", "from rest"
 MORE_FRICTION, LESS_FRICTION, HALF_STEP = "1% more friction", "1% less friction", "half the step"
-LOOKS = (REST, UP, DOWN, MORE_FRICTION, LESS_FRICTION, HALF_STEP)
+LARGE_CHANGES = ("lowest damping", "highest damping", "lobes that rise in a tenth of the time")
+LOOKS = (REST, *LARGE_CHANGES, UP, DOWN, MORE_FRICTION, LESS_FRICTION, HALF_STEP)
 """Further runs of a blade in a scene; see requirements.looks."""
 
 _OTHER_MOTIONS = (UP, DOWN)
@@ -215,8 +216,8 @@ def _left_out(evidence: Evidence, note: str) -> list[str]:
 
 
 def _tried(evidence: Evidence) -> dict[str, Evidence]:
-    """Runs with another friction or step, and speeds that are above yield before the motion settles counted as above it."""
-    chance = (MORE_FRICTION, LESS_FRICTION, HALF_STEP)
+    """Runs with another damping, rise, friction or step; and speeds above yield before the motion settles counted as above."""
+    chance = (*LARGE_CHANGES, MORE_FRICTION, LESS_FRICTION, HALF_STEP)
     tried = {
         f"with {name}": evidence.replaced(overlaid(evidence.response, evidence.looks[name]))
         for name in chance

@@ -1,7 +1,8 @@
 """Further runs that a verdict waits for: those that could overturn what the sweep's own runs say.
 
-From rest until the motion has settled, also between the sweep's speeds; carried up and down; with a little more and less
-friction; with half the step. A requirement that the sweep's runs fail clearly needs none.
+From rest until the motion has settled, also between the sweep's speeds; with damping at the ends of its range, and lobes that
+rise sooner; carried up and down; with a little more and less friction; with half the step. Of a requirement that the sweep's
+runs fail clearly only other damping and rise are tried, which may keep it.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -32,7 +33,7 @@ from r37core.time_integration.speed_run import numbers_of_run
 
 from .choice import CARRIED_STEP, LONGEST, MOST_NEAR, STEP, Requirements
 from .evidence import OF_ALL, Evidence
-from .judging import DOWN, HALF_STEP, LESS_FRICTION, MORE_FRICTION, REST, UP, closeness, fails_clearly, nearness
+from .judging import DOWN, HALF_STEP, LARGE_CHANGES, LESS_FRICTION, MORE_FRICTION, REST, UP, closeness, fails_clearly, nearness
 
 _NEAR = 0.7
 """Share of a limit from which a peak counts as near to it."""
@@ -42,6 +43,9 @@ _PEAK_STEP = 0.7
 
 _FRICTION = 0.01
 """Relative change of the friction."""
+
+_SOONER = 0.1
+"""Revolutions in which lobes rise sooner, over those of the sweep."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,8 +135,10 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
 
     A run shorter than the published ones shows a beginning alone, and fails nothing clearly.
     """
-    long_enough = blade.choice.revolutions >= PUBLISHED_REVOLUTIONS
-    if (long_enough and fails_clearly(requirements, evidence)) or not evidence.touches:
+    if not evidence.touches:
+        return
+    if blade.choice.revolutions >= PUBLISHED_REVOLUTIONS and fails_clearly(requirements, evidence):
+        yield from _large_changes(blade, requirements, evidence)
         return
     first, last = evidence.operating.first, evidence.operating.last
     inside = [float(speed) for speed in evidence.speeds if first < speed < last]
@@ -141,6 +147,7 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
         runs = overlaid(runs, blade.runs_from_rest(new))
     yield REST, runs
     rest = evidence.replaced(runs)
+    yield from _large_changes(blade, requirements, rest)
     if fails_clearly(requirements, rest):
         return
     carried = _closer([first, last], CARRIED_STEP)
@@ -153,6 +160,18 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
             changed = replace(friction, coefficient=factor * friction.coefficient)
             yield look, blade.runs_from_rest(near, replace(blade.rising_scene, friction=changed))
     yield HALF_STEP, blade.runs_from_rest(near, step=0.5)
+
+
+def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
+    """LARGE_CHANGES, at the speeds in operation where `runs` fail and up to MOST_NEAR in all, those nearest to a limit."""
+    near, scene = nearness(requirements, runs)[runs.operates], blade.rising_scene
+    nearest = np.argsort(-near, kind="stable")[: max(MOST_NEAR, int(np.count_nonzero(near >= 1.0)))]
+    speeds = np.sort(runs.response["speed"].values[runs.operates][nearest]).tolist()
+    sooner = replace(scene.casing, rise_revolutions=_SOONER * (scene.casing.rise_revolutions or 0.0))
+    changes = (scene.damped("lowest"), scene.damped("highest"), replace(scene, casing=sooner))
+    for look, changed in zip(LARGE_CHANGES, changes, strict=True):
+        if changed != scene and speeds:
+            yield look, blade.runs_from_rest(speeds, changed)
 
 
 def joined_looks(looks: Mapping[str, xr.Dataset]) -> xr.Dataset:
