@@ -192,9 +192,9 @@ class Scene:
             return table
         ratios = np.empty(frequencies.shape)
         for mode in sorted({row.mode for row in table}):
-            speeds, of_mode = zip(*sorted((row.speed or 0.0, row.ratio) for row in table if row.mode == mode), strict=True)
+            speeds, mode_ratios = zip(*sorted((row.speed or 0.0, row.ratio) for row in table if row.mode == mode), strict=True)
             target = ratios[..., mode - 1 : mode] if mode else ratios
-            target[...] = np.interp(speed, speeds, of_mode)[..., None]
+            target[...] = np.interp(speed, speeds, mode_ratios)[..., None]
         return ratios
 
     def damped(self, bound: Literal["lowest", "highest"]) -> Self:
