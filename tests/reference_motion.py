@@ -139,7 +139,8 @@ class CoupledMotion:
         modes, step = len(self._root), problem.grid.time_step
         system = np.block([[np.zeros((modes, modes)), np.diag(self._root)], [-np.diag(self._root), -coupling]])
         squares, axes = np.linalg.eigh(-system @ system)
-        ratio = problem.scene.damping(np.sqrt(squares))
+        # each frequency stands there twice
+        ratio = np.repeat(np.broadcast_to(problem.scene.damping(np.sqrt(squares[::2]), problem.speed), modes), 2)
         turning, decay = ((axes * part) @ axes.T for part in (np.sqrt(1.0 - ratio**2), ratio * np.sqrt(squares)))
         self._flight = expm(step * (turning @ system - decay))
         left = np.eye(2 * modes) - self._flight
@@ -148,7 +149,7 @@ class CoupledMotion:
         self._energy = self._swing.T @ self._swing @ np.linalg.inv(gain)
         self._back = np.linalg.inv(self._flight)
         # of the two roots of the recursion that of the motion, which may turn by more than half a turn in a step
-        ratio = problem.scene.damping(coupled.frequencies)
+        ratio = problem.scene.damping(coupled.frequencies, problem.speed)
         sense = np.sign(np.sin(step * np.sqrt(1.0 - ratio**2) * coupled.frequencies))
         self._u_factor, self._d_factor = sense * imaginary_part(recursion[:modes])
         self.response = self._modes @ (self._flight @ self._kick / np.tile(self._root, 2)[:, None])[:modes] @ self._modes.T

@@ -1,10 +1,10 @@
-"""Damping ratios over the frequency of a mode: the number, closed forms, both engines, and what is refused."""
+"""Damping ratios over the frequency of a mode, by mode and by speed: closed forms, both engines, and what is refused."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from defaults import Casing, IntegrationChoice, Scene
+from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import RING, SCENES, model_of_node, oscillator, random_model, with_static_modes
 from integration_runs import ENGINES, assert_close, assert_same_record, assert_same_state, both_engines, free_motion, times
 from integration_runs import whole_run as run_of
@@ -13,7 +13,7 @@ from r37core.base.plain import from_plain, to_plain
 from r37core.config import ConfigError, Document, checked_scene
 from r37core.config.changed_numbers import scene_numbers
 from r37core.config.scenes import SceneEntry
-from r37core.contact.scene import DampingTable, Rotor
+from r37core.contact.scene import DampingRow, DampingTable, Rotor
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS, exact_modal, recursion
 from r37core.time_integration.problem import Problem
@@ -95,7 +95,77 @@ def test_the_frequency_is_that_of_the_speed_and_of_the_blade():
     lined = with_damping(replace(SCENES["abradable"], rotor=rotor), RISING)
     tuned = [one.blade for one in blade_problems(with_static_modes(oscillator(rest), 1e-9), speed, lined, rotor, CHOICE)]
     expected = [0.0005 + 0.0015 * 3.0 / 7.0, 0.0005 + 0.0015 * 5.0 / 7.0]
-    assert [one.scene.damping(one.frequencies)[0] for one in tuned] == pytest.approx(expected)
+    assert [one.scene.damping(one.frequencies, speed)[0] for one in tuned] == pytest.approx(expected)
+
+
+ROWS = (DampingRow(0.03, 1, 2000.0), DampingRow(0.002), DampingRow(0.01, 1, 1000.0))
+"""Of the first mode at two speeds, and of all others."""
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize(("speed", "first"), [(500.0, 0.01), (1250.0, 0.015), (3000.0, 0.03)])
+@pytest.mark.parametrize("mode", [0, 1])
+def test_the_logarithmic_decrement_of_each_mode_is_that_of_its_ratio(integrator, speed, first, mode):
+    """Of successive maxima, ln(u_k/u_(k+n)) = 2 pi n xi/sqrt(1 - xi^2)."""
+    frequencies, ratio = [4000.0, 5000.0], (first, 0.002)[mode]
+    start = InitialMotion(1e-3 * np.eye(2)[mode], None)
+    choice = replace(CHOICE, time_step=5e-6, samples_per_revolution=400, revolutions=4, integrator=integrator)
+    model = model_of_node([[1.0, 1.0], [0.0, 0.0], [0.0, 0.0]], frequencies)
+    if integrator == EXACT_MODAL:
+        model = with_static_modes(model, 1e-9)
+    found = run_of(model, speed, with_damping(FREE, ROWS), choice, start)[2].samples[:, 0]
+    middle, before, after = found[1:-1], found[:-2], found[2:]
+    peaks = np.flatnonzero((middle > before) & (middle >= after))
+    # of the parabola through three samples
+    heights = middle[peaks] + 0.125 * (after - before)[peaks] ** 2 / (2.0 * middle - before - after)[peaks]
+    decrement = np.log(heights[0] / heights[-1]) / (len(peaks) - 1)
+    assert decrement / np.hypot(decrement, 2.0 * np.pi) == pytest.approx(ratio, rel=1e-3)
+
+
+@pytest.mark.parametrize(("order", "ratio"), [(2, 0.03), (4, 0.01)])
+def test_the_forced_response_at_a_resonance_is_that_of_the_speed(order, ratio):
+    """Lobes push an oscillator through a bar of lining: each harmonic with the amplitude over w^2 - W^2 + 2i xi w W."""
+    natural, lobes = 4000.0, 2
+    casing = Casing(1e-5, lobes=lobes, width=1.0, amplitude=20.0, rise_fraction=0.0)
+    lining = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=4e-14)
+    bar, speed = lining.elastic_modulus * lining.bar_area / lining.thickness, natural / order
+    model, rows = with_static_modes(oscillator(natural), 1e-9), (DampingRow(0.9), *ROWS[::2])
+    choice = replace(CHOICE, time_step=1e-5, samples_per_revolution=124, revolutions=150)
+    record = run_of(model, speed, Scene(casing, lining, damping_ratio=rows), choice)[2]
+    angles = 2.0 * np.pi * np.arange(4096) / 4096
+    fourier = np.fft.rfft(casing.clearance * (1.0 - casing.amplitude * casing.shape(angles))) / 4096
+    orders = lobes * np.arange(1, 12)
+    driven = speed * orders
+    exact = 2.0 * bar * fourier[orders] / (natural**2 + bar - driven**2 + 2j * ratio * natural * driven)
+    level = np.fft.rfft(record.samples[-1240:, 0]) / 1240
+    np.testing.assert_allclose(2.0 * np.abs(level[10 * orders]), np.abs(exact), rtol=1e-2, atol=1e-3 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("coriolis", [False, True])
+@pytest.mark.parametrize("name", RUNS)
+def test_rows_are_a_table_over_the_frequencies_of_their_modes(name, coriolis, engine):
+    model, speed, scene = blade(coriolis), 12_000.0, RUNS[name]
+    motion = InitialMotion(1e-6 * np.ones(len(model.to_reduced)), None)
+    stepped = Problem(model, speed, scene, CHOICE).blade
+    hertz = (stepped.complex_modes or stepped).frequencies / (2.0 * np.pi)
+    table = DampingTable((hertz[0], hertz[1], hertz[2]), (0.0625, 0.125, 0.001))
+    # halfway between two speeds
+    rows = (DampingRow(0.001), DampingRow(0.0625, 1), DampingRow(0.0, 2, 11_000.0), DampingRow(0.25, 2, 13_000.0))
+    (_, ours, found), (_, theirs, expected) = (
+        run_of(model, speed, with_damping(scene, damping), CHOICE, motion, engine) for damping in (rows, table)
+    )
+    assert ours.totals["steps_in_contact"] > 20
+    assert_same_record(found, expected, 1e-9)
+    assert_same_state(ours, theirs, 1e-9)
+
+
+def test_the_ratio_of_a_run_up_is_that_of_each_speed():
+    model, speeds = with_static_modes(oscillator(4000.0), 1e-9), np.array([500.0, 1250.0, 3000.0])
+    problem = Problem(model, 1000.0, with_damping(FREE, ROWS), CHOICE)
+    steps = 2.0 * np.pi / speeds / problem.grid.steps_per_revolution
+    expected = exact_modal(np.full(3, 4000.0), np.array([0.01, 0.015, 0.03]), steps).keep
+    np.testing.assert_allclose(segments_at(problem, speeds).recursion.keep[:, 0], expected, rtol=1e-12)
 
 
 CASING = {"casing": {"clearance_m": 2e-4}}
@@ -120,4 +190,43 @@ def test_the_table_of_a_file_reaches_the_jobs_and_is_no_number_that_varies():
 def test_a_table_that_cannot_be_is_refused(change, message):
     with pytest.raises(ConfigError, match=message) as refusal:
         checked_scene(CASING | {"damping_ratio": TABLE | change})
+    assert "\n" not in str(refusal.value)
+
+
+ROW = {"ratio": 0.001}
+
+
+def test_rows_of_a_file_have_a_range():
+    rows = [ROW | {"lowest": 0.0, "highest": 0.004}, {"mode": 1, "ratio": 0.002, "speed_rpm": 6000}]
+    scene = Document("scenes.yaml", CASING | {"damping_ratio": rows}).check(SceneEntry).scene()
+    ratios = lambda damped: damped.damping(np.ones(3), 100.0).tolist()  # noqa: E731
+    assert scene.damping_ratio[1].speed == pytest.approx(200.0 * np.pi)
+    assert from_plain(type(scene), to_plain(scene)) == scene
+    assert ratios(scene) == [0.002, 0.001, 0.001]
+    assert ratios(scene.damped("lowest")) == [0.002, 0.0, 0.0]
+    assert ratios(scene.damped("highest")) == [0.002, 0.004, 0.004]
+    assert FREE.damped("lowest") is FREE
+
+
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [
+        ([ROW, ROW], r"damping_ratio\.1: found mode 0 in several rows; allowed: each at another speed, by speed_rad_s"),
+        ([ROW, ROW | {"speed_rad_s": 5}], r"damping_ratio\.1: found mode 0 in several rows"),
+        ([ROW | {"speed_rad_s": 5}, ROW | {"speed_rad_s": 5}], r"damping_ratio\.1: found mode 0 in several rows"),
+        ([ROW | {"speed_rad_s": -5}], r"damping_ratio\.0\.speed_rad_s: found -5; allowed: number, at least 0.001"),
+        ([ROW | {"speed_rad_s": 5, "speed_rpm": 5}], r"damping_ratio\.0\.speed_rpm: found both"),
+        ([ROW, ROW | {"mode": "1B"}], r"damping_ratio\.1\.mode: found '1B'; allowed: integer"),
+        ([ROW | {"mode": 1}], r"damping_ratio: found no row of mode 0; allowed: also one, which all other modes have"),
+        ([{"ratio": 1.0}], r"damping_ratio\.0\.ratio: found 1.0; allowed: number, at least 0, less than 1"),
+        ([ROW | {"lowest": 0.002}], r"damping_ratio\.0\.ratio: found 0.001 in a range from 0.002 to 0.001; allowed: lowest <="),
+        (
+            [ROW | {"highest": 5e-4}],
+            r"damping_ratio\.0\.ratio: found 0.001 in a range from 0.001 to 0.0005; allowed: lowest <=",
+        ),
+    ],
+)
+def test_rows_that_cannot_be_are_refused(rows, message):
+    with pytest.raises(ConfigError, match=message) as refusal:
+        checked_scene(CASING | {"damping_ratio": rows})
     assert "\n" not in str(refusal.value)

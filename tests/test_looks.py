@@ -9,6 +9,7 @@ import xarray as xr
 from defaults import IntegrationChoice, Lining
 from integration_cases import ABRADABLE, DIRECT
 
+from r37core.contact.scene import DampingRow
 from r37core.requirements import looks as further_runs
 from r37core.requirements.choice import WIDTH, Requirements
 from r37core.requirements.evidence import Evidence
@@ -16,8 +17,11 @@ from r37core.requirements.judging import (
     DOWN,
     FAST_RISE,
     HALF_STEP,
+    HIGHEST_DAMPING,
+    LARGE_CHANGES,
     LESS_FRICTION,
     LOOKS,
+    LOWEST_DAMPING,
     MORE_FRICTION,
     REST,
     SLIGHTLY_MORE_FRICTION,
@@ -36,8 +40,12 @@ from r37core.time_integration.status import RunStatus
 
 CHOICE = IntegrationChoice(6.4e-6, 12, 62, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
-RISING = replace(ABRADABLE.casing, rise_fraction=0.5)
-LINED = replace(ABRADABLE, casing=RISING, lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_width=1e-3))
+LINED = replace(
+    ABRADABLE,
+    casing=replace(ABRADABLE.casing, rise_fraction=0.5),
+    damping_ratio=(DampingRow(0.0005, lowest=0.0, highest=0.5),),
+    lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_width=1e-3),
+)
 FLOWN = OperatingRange(1300.0, 1310.0)
 NEEDS = Requirements(used_lining=0.5)
 RESULTS = ("wear", "spectrum")
@@ -48,7 +56,8 @@ def lined(contact, monkeypatch, tmp_path):
     """A lined blade whose runs end after 20 revolutions at the latest."""
     monkeypatch.setattr(further_runs, "LONGEST", 20)
     monkeypatch.setattr(further_runs, "PUBLISHED_REVOLUTIONS", CHOICE.revolutions)
-    return JudgedBlade(contact, LINED, CHOICE, RESULTS, KEPT, 1e9, UNKNOWN, Parts(tmp_path / "runs", "lined"))
+    blade = JudgedBlade(contact, LINED, CHOICE, RESULTS, KEPT, 1e9, UNKNOWN, Parts(tmp_path / "runs", "lined"))
+    return replace(blade, coarser=replace(blade, parts=Parts(tmp_path / "coarser", "lined")))
 
 
 def evidence(used=1e-5, speeds=(1290.0, 1305.0, 1320.0)):
@@ -81,6 +90,8 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
     assert friction is not None
     expected = {
         REST: (rising, long),
+        LOWEST_DAMPING: (replace(rising, damping_ratio=0.0), long),
+        HIGHEST_DAMPING: (replace(rising, damping_ratio=0.5), long),
         MORE_FRICTION: (replace(rising, friction=replace(friction, coefficient=1.01 * friction.coefficient)), long),
         LESS_FRICTION: (replace(rising, friction=replace(friction, coefficient=0.99 * friction.coefficient)), long),
         SLIGHTLY_MORE_FRICTION: (replace(rising, friction=replace(friction, coefficient=1.001 * friction.coefficient)), long),
@@ -96,7 +107,7 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
         run = found[name].sel(speed=1305.0)
         np.testing.assert_array_equal(run["rms_normal"].sel(tip_point="leading_edge"), row["rms_normal"][0])
         np.testing.assert_array_equal(run["amplitude"], row["amplitude"])
-    assert len(set(used.values())) == 7
+    assert len(set(used.values())) == 9
 
 
 def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
@@ -119,8 +130,7 @@ def test_stress_before_a_run_settles_is_known(contact, model, steel, lined):
     """The largest stress of all revolutions, which a run that keeps all of them says, lies before the statistic here."""
     stress = {"box": stress_operators(model, steel)["box"]}
     choice = replace(CHOICE, snapshots_per_revolution=31)
-    at_once = replace(LINED, casing=ABRADABLE.casing)
-    blade = replace(lined, scene=at_once, choice=choice, results=("stress",), stress=stress)
+    blade = replace(lined, scene=ABRADABLE, choice=choice, results=("stress",), stress=stress)
     speed = 1340.0
     (largest,) = blade.runs_from_rest([speed])["max_von_mises_of_run"].values
     every = replace(choice, revolutions=20, until_settled=True, snapshot_revolutions=20)
@@ -153,7 +163,19 @@ def test_other_friction_and_step_are_tried_closest_to_the_limit(lined, monkeypat
     assert all(found[name]["speed"].values.tolist() == [1302.5] for name in (MORE_FRICTION, LESS_FRICTION, HALF_STEP))
 
 
+def test_large_changes_are_tried_where_runs_fail_or_nearly_do(lined, monkeypatch):
+    """All speeds that fail, or the worst where that still fails; else the nearest to the limit; nothing else of what fails."""
+    monkeypatch.setattr(further_runs, "MOST_NEAR", 1)
+    monkeypatch.setattr(further_runs, "nearness", lambda _, of: 1.0 - 1e-3 * (of.speeds - 1302.5))
+    found = dict(looks_of(lined, NEEDS, evidence(used=4e-3, speeds=(1290.0, 1302.0, 1305.0, 1320.0))))
+    assert {name: runs["speed"].values.tolist() for name, runs in found.items()} == {name: [1302.0] for name in LARGE_CHANGES}
+    monkeypatch.setattr(further_runs, "nearness", lambda _, of: (1.0 - 1e-3 * (of.speeds - 1302.5)) * (len(of.speeds) > 1))
+    found = dict(looks_of(lined, NEEDS, evidence()))
+    assert all(found[name]["speed"].values.tolist() == [1300.0, 1302.5] for name in LARGE_CHANGES)
+
+
 def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
+    monkeypatch.setattr(further_runs, "_large_changes", lambda *_: iter(()))
     assert dict(looks_of(lined, NEEDS, evidence(used=4e-3))) == {}
     quiet = evidence().response.assign(share_of_time_in_contact=("speed", np.zeros(3)))
     assert dict(looks_of(lined, NEEDS, evidence().replaced(quiet))) == {}
@@ -164,9 +186,9 @@ def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
 
 
 def test_without_friction_only_the_step_is_changed(contact, lined):
-    bare = replace(lined, scene=replace(DIRECT, friction=None), results=())
+    bare = replace(lined, scene=replace(DIRECT, friction=None), results=(), coarser=None)
     few = replace(evidence(), operating=OperatingRange(1304.0, 1305.0))
-    assert tuple(dict(looks_of(bare, NEEDS, few))) == (REST, UP, DOWN, HALF_STEP, SLOW_RISE)
+    assert tuple(dict(looks_of(bare, NEEDS, few))) == (REST, SLOW_RISE, UP, DOWN, HALF_STEP)
 
 
 def test_runs_stand_closer_about_a_peak_below_the_limit():

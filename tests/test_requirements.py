@@ -23,6 +23,7 @@ from r37core.requirements.judging import (
     AT_LEAST,
     DOWN,
     FAILS,
+    HIGHEST_DAMPING,
     LESS_FRICTION,
     MEETS,
     NOT_APPLICABLE,
@@ -244,6 +245,13 @@ def test_a_verdict_holds_where_all_that_was_tried_agrees():
     assert verdict(NEEDS, looks={REST: loud, UP: quiet}) == FAILS
     looks = {REST: response(above(1110.0, 1110.0)), LESS_FRICTION: quiet.sel(speed=[1110.0])}
     assert note_of_unknown(NEEDS, looks=looks).startswith("meets with 1% less friction")
+    # and so does another damping, also of what fails clearly, of which no other run is from rest
+    note = note_of_unknown(NEEDS, loud, looks={HIGHEST_DAMPING: quiet.sel(speed=slice(1100.0, 1120.0))})
+    assert note.startswith("meets with highest damping")
+    assert verdict(NEEDS, loud, looks={HIGHEST_DAMPING: quiet.sel(speed=slice(1100.0, 1110.0))}) == FAILS
+    assert note_of_unknown(NEEDS, looks={REST: quiet, HIGHEST_DAMPING: loud}).startswith(
+        "fails with highest damping by 25 rad/s"
+    )
     assert one(NEEDS, not_looked="no further runs of a rotor")["note"].startswith("no further runs of a rotor")
 
 

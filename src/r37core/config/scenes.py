@@ -3,9 +3,9 @@
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, RootModel
+from pydantic import AfterValidator, Field, RootModel
 
-from r37core.contact.scene import DampingTable, Friction, Lining, Scene
+from r37core.contact.scene import DampingRow, DampingTable, Friction, Lining, Scene
 from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
 from .casing_section import CasingSection
@@ -63,7 +63,32 @@ class DampingSection(Section):
             raise refused(("ratios",), lengths, "one for each frequency")
 
 
-DampingRatio: Any = or_section(DampingNumber, DampingSection)
+@declared_by(DampingRow)
+class DampingRowSection(Section):
+    """Damping ratio of a mode at a speed, and its range; linear between the speeds of its rows, constant beyond."""
+
+    def _check(self) -> None:
+        if self.speed_rad_s is not None and self.speed_rpm is not None:
+            refuse_both_units("speed_rad_s", "speed_rpm")
+        lowest, highest = (self.ratio if bound is None else bound for bound in (self.lowest, self.highest))
+        if not lowest <= self.ratio <= highest:
+            raise refused(("ratio",), f"{self.ratio:g} in a range from {lowest:g} to {highest:g}", "lowest <= ratio <= highest")
+
+
+def _check_rows(sections: list[DampingRowSection]) -> list[DampingRowSection]:
+    rows = [si_form(DampingRow, section) for section in sections]
+    places = [(row.mode, row.speed) for row in rows]
+    for number, (mode, speed) in enumerate(places):
+        others = [other for each, other in places[:number] if each == mode]
+        if speed in others or (others and None in (speed, *others)):
+            raise refused((number,), f"mode {mode} in several rows", "each at another speed, by speed_rad_s or speed_rpm")
+    if all(mode for mode, _ in places):
+        raise refused((), "no row of mode 0", "also one, which all other modes have")
+    return sections
+
+
+DampingRows = Annotated[list[DampingRowSection], Field(min_length=1), AfterValidator(_check_rows)]
+DampingRatio: Any = or_section(DampingNumber, DampingSection, DampingRows)
 
 
 @declared_by(Scene)
@@ -76,7 +101,9 @@ class SceneEntry(Section):
     lining: LiningSection | LeftOut = left_out("Abradable lining; the casing is bare without it")
     friction: FrictionSection | LeftOut = left_out("Friction at the tip")
     rotor: RotorSection | LeftOut = left_out("All blades in one casing; a single blade without it")
-    damping_ratio: DampingRatio = Field(default=0.0005, description="Damping ratio of all modes, or a table")
+    damping_ratio: DampingRatio = Field(
+        default=0.0005, description="Damping ratio; a table over frequency, or by mode and speed"
+    )
     gap: Any = DECLARED
     divergence_limit_m: Any = DECLARED
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = left_out(
@@ -149,6 +176,8 @@ class SceneEntry(Section):
         damping: Any = self.damping_ratio
         if isinstance(damping, DampingSection):
             damping = DampingTable(**si_fields(damping))
+        elif isinstance(damping, list):
+            damping = tuple(si_form(DampingRow, row) for row in damping)
         parts = {"lining": lining, "friction": friction, "rotor": rotor, "damping_ratio": damping}
         return si_form(Scene, self, casing=self.casing.casing(), **parts)
 

@@ -123,11 +123,17 @@ Rpm = Annotated[float, Field(ge=0.01, le=9.5e6)]
 """An angular speed in revolutions per minute."""
 
 
-def or_section(kind: Any, section: type[Section]) -> Any:
-    """Type of a key with a value of a `kind`, or a section in its place."""
+def or_section(kind: Any, section: type[Section], rows: Any = None) -> Any:
+    """Type of a key with a value of a `kind`, or a section in its place, or a list of the type `rows`."""
     name = section.__name__
-    kinds = Annotated[kind, Tag("value")] | Annotated[section, Tag(name)]  # type: ignore[valid-type]
-    return Annotated[kinds, Discriminator(lambda value: name if isinstance(value, dict | section) else "value")]
+    kinds: Any = Annotated[kind, Tag("value")] | Annotated[section, Tag(name)]  # type: ignore[valid-type]
+    if rows is not None:
+        kinds |= Annotated[rows, Tag("rows")]
+
+    def kind_of(value: Any) -> str:
+        return name if isinstance(value, dict | section) else "rows" if rows and isinstance(value, list) else "value"
+
+    return Annotated[kinds, Discriminator(kind_of)]
 
 
 def check_names(names: dict[str, T]) -> dict[str, T]:

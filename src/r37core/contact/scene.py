@@ -1,11 +1,11 @@
 """A scene: what the blade meets. Plain numbers only, so that its repr tells whether it was edited."""
 
 from dataclasses import dataclass, replace
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 import numpy as np
 
-from r37core.base.declared import Key
+from r37core.base.declared import Key, speed_keys
 
 from .casing import Casing
 
@@ -137,6 +137,17 @@ class DampingTable:
 
 
 @dataclass(frozen=True)
+class DampingRow:
+    """Damping ratio of a mode at a speed, and its range; linear between the speeds of its rows, constant beyond."""
+
+    ratio: Annotated[float, Key("Damping ratio", ge=0, lt=1)]
+    mode: Annotated[int, Key("Number of the mode by frequency at the speed; 0: all that have no rows", ge=0, le=100)] = 0
+    speed: Annotated[float | None, speed_keys("Speed: linear between rows, constant beyond; a single row needs none")] = None
+    lowest: Annotated[float | None, Key("Lowest ratio, which a verdict tries", ge=0, lt=1)] = None
+    highest: Annotated[float | None, Key("Highest ratio, which a verdict tries", ge=0, lt=1)] = None
+
+
+@dataclass(frozen=True)
 class Scene:
     """Surroundings of the blade: casing, lining or None, friction or None, and how the gap is measured.
 
@@ -147,7 +158,7 @@ class Scene:
     casing: Casing
     lining: Lining | None
     friction: Friction | None
-    damping_ratio: float | DampingTable
+    damping_ratio: float | DampingTable | tuple[DampingRow, ...]
     exact_gap: Annotated[
         bool,
         Key(
@@ -169,12 +180,30 @@ class Scene:
         """The lining; without one a law that wears nothing."""
         return self.lining or BareCasing()
 
-    def damping(self, frequencies: np.ndarray) -> float | np.ndarray:
-        """Damping ratios of modes of the `frequencies` (rad/s), in their shape; one number where it is that of every mode."""
+    def damping(self, frequencies: np.ndarray, speed: float | np.ndarray) -> float | np.ndarray:
+        """Damping ratios of modes of the `frequencies` (rad/s), in their shape; one number where it is that of every mode.
+
+        `frequencies`, shape (modes,) at a `speed` (rad/s), or (speeds, modes): all modes from the lowest on.
+        """
         table = self.damping_ratio
         if isinstance(table, DampingTable):
             return np.interp(frequencies / (2.0 * np.pi), table.frequencies, table.ratios)
-        return table
+        if not isinstance(table, tuple):
+            return table
+        ratios = np.empty(frequencies.shape)
+        for mode in sorted({row.mode for row in table}):
+            speeds, mode_ratios = zip(*sorted((row.speed or 0.0, row.ratio) for row in table if row.mode == mode), strict=True)
+            target = ratios[..., mode - 1 : mode] if mode else ratios
+            target[...] = np.interp(speed, speeds, mode_ratios)[..., None]
+        return ratios
+
+    def damped(self, bound: Literal["lowest", "highest"]) -> Self:
+        """The scene with damping at a bound of its range; the scene itself without a range."""
+        if not isinstance(self.damping_ratio, tuple):
+            return self
+        bounds = {row: getattr(row, bound) for row in self.damping_ratio}
+        rows = (row if ratio is None else replace(row, ratio=ratio) for row, ratio in bounds.items())
+        return replace(self, damping_ratio=tuple(rows))
 
     @property
     def grown(self) -> Self:

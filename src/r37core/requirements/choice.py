@@ -19,7 +19,7 @@ CARRIED_STEP = WIDTH
 """Step (rad/s) between the speeds that a motion is carried through."""
 
 MOST_NEAR, OTHERS = 24, 6
-"""Speeds, those nearest to the limit, that are run in so many other ways: with other friction, step and rise of the lobes."""
+"""Speeds, those nearest to the limit, that are run in so many other ways: other friction, step, mesh, damping and rise."""
 
 LONGEST = 1000
 """Most revolutions of a run that ends as it has settled."""

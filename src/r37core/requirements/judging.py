@@ -25,10 +25,11 @@ MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot te
 UP, DOWN, REST = "carried up", "carried down", "from rest"
 MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION = "1% more friction", "1% less friction", "0.1% more friction"
 HALF_STEP, COARSER_MESH = "half the step", "a mesh of half the nodes"
-FAST_RISE, SLOW_RISE = "lobes that rise ten times as fast", f"lobes that rise over {PUBLISHED_REVOLUTIONS} revolutions"
 REPEATED = (MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION, HALF_STEP, COARSER_MESH)
-FROM_REST = (*REPEATED, FAST_RISE, SLOW_RISE)
-LOOKS = (REST, UP, DOWN, *FROM_REST)
+LOWEST_DAMPING, HIGHEST_DAMPING = "lowest damping", "highest damping"
+FAST_RISE, SLOW_RISE = "lobes that rise ten times as fast", f"lobes that rise over {PUBLISHED_REVOLUTIONS} revolutions"
+LARGE_CHANGES = (LOWEST_DAMPING, HIGHEST_DAMPING, FAST_RISE, SLOW_RISE)
+LOOKS = (REST, *LARGE_CHANGES, UP, DOWN, *REPEATED)
 """Further runs of a blade in a scene; see requirements.looks."""
 
 _OTHER_MOTIONS = (UP, DOWN)
@@ -253,10 +254,10 @@ def _left_out(only: Requirements, evidence: Evidence, note: str) -> list[str]:
 
 
 def _tried(evidence: Evidence) -> dict[str, Evidence]:
-    """Runs with another friction, step or rise of the lobes, and as they drift on; speeds above yield before they settle."""
+    """Runs with another damping, rise, friction, step or mesh, and as they drift on; speeds above yield before they settle."""
     tried = {
         f"with {name}": evidence.replaced(overlaid(evidence.response, evidence.looks[name]))
-        for name in FROM_REST
+        for name in (*LARGE_CHANGES, *REPEATED)
         if name in evidence.looks
     }
     runs = evidence.response

@@ -1,7 +1,8 @@
 """Further runs that a verdict waits for: those that could overturn what the sweep's own runs say.
 
-From rest until the motion has settled, also between the sweep's speeds; carried up and down; with other friction; with half
-the step; with lobes that rise faster and slower. A requirement that the sweep's runs fail clearly needs none.
+From rest until the motion has settled, also between the sweep's speeds; with damping at the ends of its range, and lobes that
+rise faster and slower; carried up and down; with other friction; with half the step and on a coarser mesh. Of a requirement
+that the sweep's runs fail clearly only other damping and rise are tried, which may keep it.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -39,7 +40,9 @@ from .judging import (
     DOWN,
     FAST_RISE,
     HALF_STEP,
+    HIGHEST_DAMPING,
     LESS_FRICTION,
+    LOWEST_DAMPING,
     MORE_FRICTION,
     NEAR,
     REST,
@@ -152,8 +155,10 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
 
     A run shorter than the published ones shows a beginning alone, and fails nothing clearly.
     """
-    long_enough = blade.choice.revolutions >= PUBLISHED_REVOLUTIONS
-    if (long_enough and fails_clearly(requirements, evidence)) or not evidence.touches:
+    if not evidence.touches:
+        return
+    if blade.choice.revolutions >= PUBLISHED_REVOLUTIONS and fails_clearly(requirements, evidence):
+        yield from _large_changes(blade, requirements, evidence)
         return
     first, last = evidence.operating.first, evidence.operating.last
     error = np.nan_to_num(evidence.error, nan=CLEARLY - 1.0)
@@ -163,14 +168,14 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
         runs = overlaid(runs, blade.runs_from_rest(new))
     yield REST, runs
     rest = evidence.replaced(runs)
+    yield from _large_changes(blade, requirements, rest)
     if fails_clearly(requirements, rest):
         return
     carried = _closer([first, last], CARRIED_STEP)
     yield UP, blade.carried(carried)
     yield DOWN, blade.carried(carried[::-1])
     close = closeness(requirements, rest)
-    count = min(max(np.count_nonzero(close >= NEAR), _LEAST_NEAR), MOST_NEAR)
-    near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[:count]]).tolist()
+    near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[: _speeds_near(close)]]).tolist()
     friction = blade.scene.friction
     if friction is not None:
         for look, factor in _FRICTION.items():
@@ -179,11 +184,30 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     yield HALF_STEP, blade.runs_from_rest(near, step=0.5)
     if blade.coarser:
         yield COARSER_MESH, blade.coarser.runs_from_rest(near)
-    casing = blade.rising_scene.casing
-    for look, revolutions in ((FAST_RISE, 0.1 * (casing.rise_revolutions or 0.0)), (SLOW_RISE, float(PUBLISHED_REVOLUTIONS))):
-        if revolutions not in (0.0, casing.rise_revolutions):
-            rising = replace(blade.rising_scene, casing=replace(casing, rise_revolutions=revolutions))
-            yield look, blade.runs_from_rest(near, rising)
+
+
+def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
+    """LARGE_CHANGES, at the speeds in operation where `runs` fail and up to MOST_NEAR in all, those nearest to a limit.
+
+    What still fails at the worst speed is run at no other.
+    """
+    near, scene = nearness(requirements, runs)[runs.operates], blade.rising_scene
+    count = max(_speeds_near(near), int(np.count_nonzero(near >= 1.0)))
+    speeds = runs.response["speed"].values[runs.operates][np.argsort(-near, kind="stable")[:count]].tolist()
+    changes = {LOWEST_DAMPING: scene.damped("lowest"), HIGHEST_DAMPING: scene.damped("highest")}
+    fast = 0.1 * (scene.casing.rise_revolutions or 0.0)
+    for look, revolutions in ((FAST_RISE, fast), (SLOW_RISE, float(PUBLISHED_REVOLUTIONS))):
+        changes[look] = replace(scene, casing=replace(scene.casing, rise_revolutions=revolutions))
+    for look, changed in changes.items():
+        if changed != scene and speeds:
+            worst = blade.runs_from_rest(speeds[:1], changed)
+            fails = near.max() >= 1.0 and nearness(requirements, runs.replaced(worst)).max() >= 1.0
+            yield look, worst if fails else blade.runs_from_rest(speeds, changed)
+
+
+def _speeds_near(near: np.ndarray) -> int:
+    """How many of the runs that come nearest to a limit are run in other ways."""
+    return min(max(int(np.count_nonzero(near >= NEAR)), _LEAST_NEAR), MOST_NEAR)
 
 
 def joined_looks(looks: Mapping[str, xr.Dataset]) -> xr.Dataset:

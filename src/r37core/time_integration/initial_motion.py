@@ -93,10 +93,10 @@ class InitialMotion:
         blade = slice(len(displacement))
         own, coupled, step = problem.blade.frequencies, problem.blade.complex_modes, problem.grid.time_step
         if coupled is not None:
-            ratio = problem.scene.damping(coupled.frequencies)
+            ratio = problem.scene.damping(coupled.frequencies, problem.speed)
             u, d = coupled.begun(own, displacement, velocity, ratio, step)
         else:
-            factors = increments(problem.choice.integrator, own, problem.scene.damping(own), step)
+            factors = increments(problem.choice.integrator, own, problem.scene.damping(own, problem.speed), step)
             problem.contact.put_followers(displacement, velocity)
             u, d = displacement, factors.displacement_factor * displacement + factors.velocity_factor * velocity
             if problem.contact.quadratic is not None:

@@ -70,7 +70,7 @@ def _motion_at(problem: Problem, speeds: np.ndarray) -> tuple[np.ndarray, float 
         raise BucklingError(float(speeds[np.argmin(ratio.min(axis=1))]))
     steps = 2.0 * np.pi / speeds[:, None] / problem.grid.steps_per_revolution
     frequencies = blade.frequencies * np.sqrt(ratio)
-    damping = problem.scene.damping(frequencies)
+    damping = problem.scene.damping(frequencies, speeds)
     if ring is None:
         return frequencies, damping, steps
     ring_part, ring_damping = (np.tile(part, (len(speeds), 1)) for part in (ring.frequencies, ring.damping_ratios))

@@ -115,7 +115,7 @@ class SteppedBlade:
 
         def is_stable(stepped: int) -> bool:
             own = frequencies[:stepped]
-            stepping = recursion(choice.integrator, own, self.scene.damping(own), choice.time_step)
+            stepping = recursion(choice.integrator, own, self.scene.damping(own, 0.0), choice.time_step)
             flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])[0]
             ratio = ratio_of_pressed_nodes(stepping, rows[0, :, :stepped], flexibility)
             return ratio < largest_pressed_ratio(self.scene)
@@ -151,7 +151,8 @@ class SteppedBlade:
         """Recursion of the stepped modes, without the casing's."""
         coupled = self.complex_modes
         frequencies = self.frequencies if coupled is None else coupled.frequencies
-        return recursion(self.grid.choice.integrator, frequencies, self.scene.damping(frequencies), self.grid.time_step)
+        ratios = self.scene.damping(frequencies, self.grid.speed)
+        return recursion(self.grid.choice.integrator, frequencies, ratios, self.grid.time_step)
 
     @cached_property
     def static_modes(self) -> tuple[np.ndarray, np.ndarray]:
