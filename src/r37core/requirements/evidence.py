@@ -9,6 +9,7 @@ import xarray as xr
 
 from r37core.results.datasets import overlaid
 from r37core.results.exceedance import exceedance_of, is_lined
+from r37core.results.limits import OF_LIMITS, reasons_beyond_limits
 from r37core.results.operating_range import OperatingRange
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
@@ -26,6 +27,7 @@ JUDGED = (
     "used_thickness",
     "worn_through_share",
     "share_of_time_in_contact",
+    *OF_LIMITS,
 )
 """Variables over the speeds that requirements are judged by."""
 
@@ -112,6 +114,12 @@ class Evidence:
         grows = near & (self.response["motion_at_end"].values == MotionAtEnd.GROWING)
         speeds = self.response["speed"].values[grows & self.operates]
         return f"the motion still grows as the run ends, at {speeds[0]:.5g} rad/s" if len(speeds) else ""
+
+    @property
+    def beyond_limits(self) -> list[str]:
+        """Reasons why runs in operation, and further ones, are beyond the model's limits."""
+        parts = [self.response.isel(speed=np.flatnonzero(self.operates)), *self.looks.values()]
+        return list(dict.fromkeys(reason for part in parts for reason in reasons_beyond_limits(part)))
 
     @property
     def divergence(self) -> str:

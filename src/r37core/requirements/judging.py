@@ -179,6 +179,8 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
         row |= {"verdict": UNKNOWN, "note": "; ".join(dict.fromkeys([*doubts, *filter(None, [row["note"]])]))}
     elif row["verdict"] == MEETS and not evidence.touches:
         row["note"] = NO_CONTACT
+    elif row["verdict"] == FAILS:
+        row["note"] = "; ".join(filter(None, [row["note"], *evidence.beyond_limits]))
     return row
 
 
@@ -211,7 +213,8 @@ def _growing(only: Requirements, name: str, evidence: Evidence) -> str:
 def _left_out(evidence: Evidence, note: str) -> list[str]:
     """Reasons why runs cannot show that a limit is met, by what they leave out; `note`: on the value."""
     reasons = [bound for bound in (LOWER_BOUND, VIBRATION_ALONE) if bound in note]
-    return reasons + [text for text in (evidence.not_looked, evidence.point_contact and ON_POINTS) if text and evidence.touches]
+    reasons += [text for text in (evidence.not_looked, evidence.point_contact and ON_POINTS) if text and evidence.touches]
+    return reasons + evidence.beyond_limits
 
 
 def _tried(evidence: Evidence) -> dict[str, Evidence]:

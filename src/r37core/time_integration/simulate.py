@@ -1,6 +1,6 @@
 """Simulation of one blade at one speed in one scene."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import ClassVar, Self
 
@@ -86,11 +86,12 @@ class Simulation:
         risen = problem.casing.rise_time / (problem.grid.steps_per_revolution * problem.grid.time_step)
         parts, out = parts_of_run(choice), self.room(0, choice.revolutions * per_revolution)
         done, settled, growth, steps, rms = 0, False, 0.0, 0.0, np.empty(0)
-        wear, contact = state.wear.copy(), float(state.totals["steps_in_contact"])
+        wear, contact, heats = state.wear.copy(), float(state.totals["steps_in_contact"]), {0: 0.0}
         for part in self.parts(state, [count * per_revolution for count in parts], out):
             done += len(part.samples)
             growth, steps = float(np.max(state.wear - wear, initial=0.0)), float(state.totals["steps_in_contact"]) - contact
             wear, contact = state.wear.copy(), contact + steps
+            heats[done] = float(state.totals["friction_heat"])
             if choice.until_settled and not part.diverged:
                 rms = np.concatenate([rms, revolution_rms(part.samples[:, LEADING_EDGE], per_revolution)])
                 settled = has_settled(rms, parts[-1], growth, risen)
@@ -104,11 +105,19 @@ class Simulation:
             problems=[problem],
             states=[state],
             records=[record],
-            ending=Ending(state.samples // per_revolution, settled, growth, steps),
+            ending=Ending(state.samples // per_revolution, settled, growth, steps, self._friction_power(heats)),
             initial_energy=energy,
             energy_change=self.energy(state) - energy,
             contact_work=self.work(state),
         )
+
+    def _friction_power(self, heats: Mapping[int, float]) -> float:
+        """Mean power (W) over the statistic, from the heat (J) by the ends of parts, in samples; NaN of no sample."""
+        grid, choice, done = self.problem.grid, self.problem.choice, max(heats)
+        later = done - choice.revolutions_in_statistic * choice.samples_per_revolution
+        since = max((end for end in heats if end <= later), default=0)
+        time = (done - since) * grid.steps_per_sample * grid.time_step
+        return (heats[done] - heats[since]) / time if time else np.nan
 
     def parts(
         self, state: SimulationState, samples: Iterable[int], out: SimulationRecord | None = None

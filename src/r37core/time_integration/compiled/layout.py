@@ -226,6 +226,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("response", nodes, nodes),
         _fields("force", nodes),
         _fields("friction_force", 2, nodes),
+        _fields("sliding", nodes),  # length (m) that friction acts along in a step
         # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
         # at a sample, and the static modes' part of it; the contact problem
         _fields("flexibility", 3, nodes, nodes),
