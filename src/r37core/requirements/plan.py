@@ -132,7 +132,11 @@ class Judged:
     def clearance(self) -> dict[str, float]:
         """Clearance (m) of each scene where it is the same at every speed."""
         casings = {name: chosen.scene.casing for name, chosen in self.sweep.settings.scenes.items()}
-        return {name: casing.clearance for name, casing in casings.items() if not casing.changes_with_speed}
+        return {
+            name: casing.clearance + min(casing.change, default=0.0)
+            for name, casing in casings.items()
+            if not casing.changes_with_speed
+        }
 
     @property
     def thickness(self) -> dict[str, float]:

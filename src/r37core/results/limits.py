@@ -41,7 +41,9 @@ def reasons_beyond_limits(runs: Mapping[Any, Any]) -> list[str]:
     reasons = []
     for name, places in passed.items():
         if places.size:
-            values, limits = (np.broadcast_to(each, np.shape(runs[name])).flat[places] for each in (runs[name], _limit(runs, name)))
+            values, limits = (
+                np.broadcast_to(each, np.shape(runs[name])).flat[places] for each in (runs[name], _limit(runs, name))
+            )
             furthest = values.argmax()
             reasons.append(_LIMITS[name][1].format(values[furthest], limits[furthest]))
     return reasons

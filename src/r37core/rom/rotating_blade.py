@@ -20,12 +20,15 @@ from r37core.fem.large_displacement import LargeDisplacement
 from r37core.fem.material import Material
 from r37core.fem.matrices import StructuralMatrices
 from r37core.fem.solver import lowest_modes
-from r37core.mesh.blade_mesh import BladeMesh
+from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 from .craig_bampton import StateAtSpeed, projected, symmetric
 from .logarithmic_stiffness import LogarithmicStiffness
-from .quadratic_terms import QuadraticTerms, followed_modes, mode_pairs, pairings
+from .quadratic_terms import PATH_SHARES, SHARE_OF_HEIGHT, QuadraticTerms, followed_modes, mode_pairs, pairings
 from .reduction_choice import QUADRATIC, ReductionChoice
+
+_PATH_ORDER, _CONVERGED = 12, 1e-4
+"""Order of the series of the path, and its last term, as a share of the height, up to which it has converged."""
 
 _RELATIVE_STIFFENING = np.array([0.0, 1.0, 4.0])
 """kappa Omega^2 at the highest speed of the three shapes of rotation; see r37core.rom.rotation."""
@@ -40,6 +43,8 @@ class RotatingBlade:
         self._matrices, self._reduction = matrices, reduction
         self._equilibria = [np.zeros_like(mesh.points)]
         self._height = float(np.ptp(np.hypot(*mesh.points[:, :2].T)))
+        self._points = mesh.points
+        self._tip = np.concatenate([mesh.node_set(name)[[0, -1]] for name in TIP_LINES.values()])
 
     @cached_property
     def _slope(self) -> np.ndarray:
@@ -114,7 +119,7 @@ class RotatingBlade:
         """
         count = self._reduction.quadratic_modes
         lowest = la.eigh(stiffness[1], mass, subset_by_index=(0, count - 1))[1]
-        coordinates, derivatives, cubic = lowest.T @ mass, [], []
+        coordinates, derivatives, cubic, errors = lowest.T @ mass, [], [], np.empty(0)
         for matrix, displacement in zip(stiffness, self._equilibria, strict=True):
             squares, modes = la.eigh(matrix, mass)
             followed = modes @ followed_modes(coordinates @ modes).T
@@ -123,9 +128,48 @@ class RotatingBlade:
             pushes = np.array([self._pushed(vectors, self._solid.second_derivative(displacement, *pair)) for pair in pairs])
             third = pairings(self._solid.strain_energies(pairs), count)
             modal = pushes @ modes
-            derivatives.append(-(modal / squares) @ modes.T @ mass)
+            static = -(modal / squares) @ modes.T
+            if not errors.size:
+                errors = self._path_errors(vectors @ followed, vectors @ static.T)
+            derivatives.append(static @ mass)
             cubic.append(third - pairings((modal / squares) @ modal.T, count))
-        return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic), self._height)
+        return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic), self._height, errors)
+
+    def _path_errors(self, lowest: np.ndarray, static: np.ndarray) -> np.ndarray:
+        """Radial errors (m) of the tip's path of second order under a load on the first mode at rest, at PATH_SHARES.
+
+        The larger of both signs. Full finite elements: the series (Cochelin, as of Rotation) in the size a of the load; the
+        path of second order at their amplitudes q_a of the `lowest` modes, q_a p_a + q_a q_b theta_ab/2 with the `static`
+        derivatives of all pairs beyond these modes. Where the series has not converged the error is the height.
+        """
+        mass, terms = self._matrices.mass(), []
+
+        def next_term(n: int, forces: np.ndarray) -> np.ndarray:
+            load = mass @ lowest[:, 0] if n == 1 else 0.0
+            terms.append(self._matrices.solve_at_rest(load - self._rotation.free(forces)))
+            return self._rotation.whole(terms[-1])
+
+        self._solid.series(self._equilibria[0], _PATH_ORDER, next_term)
+        amplitudes = np.array(terms) @ (mass @ lowest)
+        static = static - lowest @ (lowest.T @ (mass @ static))
+        first, second = mode_pairs(lowest.shape[1])
+        fields = self._at_tip(np.array([*terms, *lowest.T, *(static * np.where(first == second, 0.5, 1.0)).T]))
+        series, linear, squared = np.split(fields, [_PATH_ORDER, _PATH_ORDER + lowest.shape[1]], axis=1)
+        sizes, errors = np.linspace(0.0, 2.0 * SHARE_OF_HEIGHT, 81)[1:] / np.abs(series[:, 0]).max(), []
+        for sign in (1.0, -1.0):
+            powers = (sign * sizes[:, None]) ** np.arange(1, _PATH_ORDER + 1)
+            q = powers @ amplitudes
+            error = np.abs(powers @ series[0] - q @ linear[0] - q[:, first] * q[:, second] @ squared[0]).max(axis=1)
+            error[sizes**_PATH_ORDER * np.abs(series[:, -1]).max() > _CONVERGED] = 1.0
+            path = np.abs(powers @ series).max(axis=(0, 2)), error
+            errors.append(np.interp(PATH_SHARES, *(np.append(0.0, np.maximum.accumulate(part)) for part in path)))
+        return np.max(errors, axis=0) * self._height
+
+    def _at_tip(self, fields: np.ndarray) -> np.ndarray:
+        """Radial and tangential parts at the tip's corners, as shares of the height, shape (2, fields, corners)."""
+        moved = np.array([self._rotation.whole(field)[self._tip] for field in fields]) / self._height
+        x, y = (self._points[self._tip, :2] / np.hypot(*self._points[self._tip, :2].T)[:, None]).T
+        return np.array([x * moved[..., 0] + y * moved[..., 1], x * moved[..., 1] - y * moved[..., 0]])
 
     @staticmethod
     def _paired(fields: list[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
-from r37core.rom.quadratic_terms import SHARE_OF_HEIGHT
+from r37core.rom.quadratic_terms import PATH_ERROR
 from r37core.stress.operator import StressOperators, operators_at
 
 from . import kept_numbers
@@ -113,7 +113,7 @@ def numbers_of_run(
         # as far as a run got that diverged
         reached = numbers["revolution_maxima"]
         numbers["peak_share_of_height"] = np.max(reached, where=np.isfinite(reached), initial=0.0) / model.quadratic.height
-        numbers["share_of_height_limit"] = np.array(SHARE_OF_HEIGHT)
+        numbers["share_of_height_limit"] = np.array(model.quadratic.share_within(PATH_ERROR * scene.casing.clearance))
     numbers |= kept_numbers.limit_numbers(run, totals)
     numbers |= ending_numbers(run, samples)
     if scene.casing.changes_with_speed:

@@ -110,7 +110,7 @@ def measure_gaps(m, place, lobes):
     any_beyond = 0
     for g in range(0, node_lanes(m), LANES):
         normal = displaced(m, NORMAL, g)
-        gap = load(m.speed.clearance, g) - lobes * load(shape, place * node_lanes(m) + g) - normal
+        gap = load(m.speed.clearance, g) + m.opening - lobes * load(shape, place * node_lanes(m) + g) - normal
         store(m.problem.gap, g, gap)
         beyond = bits_of(gap < 0.0)
         m.beyond[g // LANES] = beyond
@@ -135,7 +135,7 @@ def measure_exact_gaps(m, place, lobes):
             p.multiplier[k], p.answer[k], p.short[k], m.radius[k], casing.cosine, casing.sine
         )
         shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
-        p.gap[k] = m.speed.clearance[k] - lobes * shape - position
+        p.gap[k] = m.speed.clearance[k] + m.opening - lobes * shape - position
         if p.gap[k] < 0.0:
             m.beyond[k // LANES] |= 1 << (k % LANES)
             any_beyond = True
