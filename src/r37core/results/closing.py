@@ -22,7 +22,7 @@ def remarks_on_diverged(linear: Sequence[str]) -> list[str]:
     return [remark] if linear else []
 
 
-def remarks_on_limits(runs: Mapping[str, np.ndarray], prefix: str = "") -> list[str]:
+def remarks_on_limits(runs: Mapping[Any, Any], prefix: str = "") -> list[str]:
     """A line on runs beyond the model's limits, with the reasons; `runs`: as of reasons_beyond_limits."""
     beyond = counted(int(beyond_limits(runs).sum()), "run")
     reasons = reasons_beyond_limits(runs)

@@ -24,7 +24,7 @@ from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 from .craig_bampton import StateAtSpeed, projected, symmetric
 from .logarithmic_stiffness import LogarithmicStiffness
-from .quadratic_terms import PATH_SHARES, SHARE_OF_HEIGHT, QuadraticTerms, followed_modes, mode_pairs, pairings
+from .quadratic_terms import PATH_SHARES, QuadraticTerms, followed_modes, mode_pairs, pairings
 from .reduction_choice import QUADRATIC, ReductionChoice
 
 _PATH_ORDER, _CONVERGED = 12, 1e-4
@@ -136,13 +136,13 @@ class RotatingBlade:
         return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic), self._height, errors)
 
     def _path_errors(self, lowest: np.ndarray, static: np.ndarray) -> np.ndarray:
-        """Radial errors (m) of the tip's path of second order under a load on the first mode at rest, at PATH_SHARES.
+        """Largest radial errors (m) of the tip's path of second order up to PATH_SHARES, by a load on the first mode at rest.
 
-        The larger of both signs. Full finite elements: the series (Cochelin, as of Rotation) in the size a of the load; the
-        path of second order at their amplitudes q_a of the `lowest` modes, q_a p_a + q_a q_b theta_ab/2 with the `static`
-        derivatives of all pairs beyond these modes. Where the series has not converged the error is the height.
+        Full finite elements: the series (Cochelin, as of Rotation) of the displacement in the size a of the load. The path: at
+        their amplitudes q_a of the `lowest` modes, q_a p_a + q_a q_b theta_ab/2, with the `static` derivatives of all pairs
+        beyond these modes. Where the series has not converged the error is the height.
         """
-        mass, terms = self._matrices.mass(), []
+        mass, terms, orders = self._matrices.mass(), [], np.arange(1, _PATH_ORDER + 1)
 
         def next_term(n: int, forces: np.ndarray) -> np.ndarray:
             load = mass @ lowest[:, 0] if n == 1 else 0.0
@@ -150,26 +150,20 @@ class RotatingBlade:
             return self._rotation.whole(terms[-1])
 
         self._solid.series(self._equilibria[0], _PATH_ORDER, next_term)
-        amplitudes = np.array(terms) @ (mass @ lowest)
-        static = static - lowest @ (lowest.T @ (mass @ static))
         first, second = mode_pairs(lowest.shape[1])
-        fields = self._at_tip(np.array([*terms, *lowest.T, *(static * np.where(first == second, 0.5, 1.0)).T]))
-        series, linear, squared = np.split(fields, [_PATH_ORDER, _PATH_ORDER + lowest.shape[1]], axis=1)
-        sizes, errors = np.linspace(0.0, 2.0 * SHARE_OF_HEIGHT, 81)[1:] / np.abs(series[:, 0]).max(), []
-        for sign in (1.0, -1.0):
-            powers = (sign * sizes[:, None]) ** np.arange(1, _PATH_ORDER + 1)
-            q = powers @ amplitudes
-            error = np.abs(powers @ series[0] - q @ linear[0] - q[:, first] * q[:, second] @ squared[0]).max(axis=1)
-            error[sizes**_PATH_ORDER * np.abs(series[:, -1]).max() > _CONVERGED] = 1.0
-            path = np.abs(powers @ series).max(axis=(0, 2)), error
-            errors.append(np.interp(PATH_SHARES, *(np.append(0.0, np.maximum.accumulate(part)) for part in path)))
-        return np.max(errors, axis=0) * self._height
-
-    def _at_tip(self, fields: np.ndarray) -> np.ndarray:
-        """Radial and tangential parts at the tip's corners, as shares of the height, shape (2, fields, corners)."""
-        moved = np.array([self._rotation.whole(field)[self._tip] for field in fields]) / self._height
+        squared = (static - lowest @ (lowest.T @ (mass @ static))) * np.where(first == second, 0.5, 1.0)
+        at_tip = np.array([self._rotation.whole(field)[self._tip] for field in (*terms, *lowest.T, *squared.T)])
         x, y = (self._points[self._tip, :2] / np.hypot(*self._points[self._tip, :2].T)[:, None]).T
-        return np.array([x * moved[..., 0] + y * moved[..., 1], x * moved[..., 1] - y * moved[..., 0]])
+        radial, across = (
+            at_tip[..., 0] * x + at_tip[..., 1] * y,
+            at_tip[:_PATH_ORDER, :, 1] * x - at_tip[:_PATH_ORDER, :, 0] * y,
+        )
+        powers = (np.linspace(-0.3, 0.3, 601)[:, None] * self._height / np.abs(across[0]).max()) ** orders
+        q, path = powers @ np.array(terms) @ (mass @ lowest), powers @ radial[:_PATH_ORDER]
+        error = np.abs(path - np.hstack([q, q[:, first] * q[:, second]]) @ radial[_PATH_ORDER:]).max(axis=1)
+        error[np.abs(powers[:, -1]) * np.abs(across[-1]).max() > _CONVERGED * self._height] = self._height
+        share = np.maximum(np.abs(path), np.abs(powers @ across)).max(axis=1) / self._height
+        return np.array([error.max(where=share <= most, initial=0.0) for most in PATH_SHARES])
 
     @staticmethod
     def _paired(fields: list[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:

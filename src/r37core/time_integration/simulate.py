@@ -84,7 +84,7 @@ class Simulation:
         problem, choice, state = self.problem, self.problem.choice, self.start(motion)
         per_revolution, energy = choice.samples_per_revolution, self.energy(state)
         risen = problem.casing.rise_time / (problem.grid.steps_per_revolution * problem.grid.time_step)
-        risen = max(risen, *problem.scene.casing.change_revolutions[-1:])
+        risen = max((risen, *problem.scene.casing.change_revolutions[-1:]))
         parts, out = parts_of_run(choice), self.room(0, choice.revolutions * per_revolution)
         done, settled, growth, steps, rms = 0, False, 0.0, 0.0, np.empty(0)
         wear, contact, heats = state.wear.copy(), float(state.totals["steps_in_contact"]), {0: 0.0}

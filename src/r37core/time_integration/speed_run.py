@@ -43,8 +43,9 @@ def run_speed(
     the statistic, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end
     of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics,
     `largest_penetration` (m) of the tip's edge into the casing among them. `peak_share_of_height`: the largest of the maxima,
-    also of a diverged run, of a blade with displacements of second order, and its `share_of_height_limit`; limit_numbers. `clearance` (m), shape (nodes,): where it changes
-    with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
+    also of a diverged run, of a blade with displacements of second order, and its `share_of_height_limit`; limit_numbers.
+    `clearance` (m), shape (nodes,): where it changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading
+    edge's normal and tangential motion.
     `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
     of rotation's shapes. With `stress` operators, by `region`: `max_von_mises_last_revolution` (Pa) in the last revolution,
     `revolution_von_mises` (Pa), shape (regions, revolutions), the largest of each of the last `choice.snapshot_revolutions`,
