@@ -230,7 +230,12 @@ def test_a_run_settles_when_two_windows_are_alike_and_nothing_wears():
 
 def test_parts_are_windows_and_each_revolution_has_its_rms():
     fixed = replace(CHOICE, until_settled=False)
-    assert [parts_of_run(replace(fixed, revolutions=n)) for n in (2, 7, 200, 1000)] == [[1, 1], [3, 3, 1], [100, 50, 50], [500, 450, 50]]
+    assert [parts_of_run(replace(fixed, revolutions=n)) for n in (2, 7, 200, 1000)] == [
+        [1, 1],
+        [3, 3, 1],
+        [100, 50, 50],
+        [500, 450, 50],
+    ]
     assert [parts_of_run(replace(CHOICE, revolutions=n)) for n in (3, 30, 220)] == [[1] * 3, [9, 7, 7, 7], [70, 50, 50, 50]]
     motion = np.array([[3.0, 4.0], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     np.testing.assert_allclose(revolution_rms(motion, 2), [np.sqrt(12.5), 1.0])
