@@ -27,8 +27,7 @@ class Casing:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
     `growth_speeds` (rad/s), ascending, and linear between them. The lobes stay as they are.
 
-    `change` (m), given at `change_revolutions` of a run, ascending from 0, linear between them and constant beyond, is added to
-    the clearance: what heat and the wear of the tip do.
+    `change` (m) of the clearance by heat and tip wear, at `change_revolutions` of a run: linear between, constant beyond.
 
     `longer` (m): by how much the blade is longer than its model, as one of a rotor may be; it has so much less clearance.
 

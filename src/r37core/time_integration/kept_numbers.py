@@ -204,8 +204,7 @@ def energy_balance(work: float, loss: float, change: float, stiffness_work: floa
 def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, np.ndarray]:
     """Numbers that the model's limits are of (results.limits), from the `totals` of each blade, shape (blades,).
 
-    `energy_residual_share`: of the largest of contact work, loss and energy change; `bounded_share_of_time`: of the steps;
-    `friction_power`, `melting_power` (W): see MELTING.
+    `energy_residual_share`: of the largest of contact work, loss and energy change.
     """
     balance = energy_balance(run.contact_work, float(totals["loss"].sum()), run.energy_change)
     *parts, residual = (abs(float(part)) for part in balance.values())

@@ -47,8 +47,7 @@ class Ending:
     """End of a run: `revolutions` done, and whether it had `settled` then.
 
     `wear_growth` (m): largest growth of a bar's wear in the last window; `contact_steps`: steps with a contact force in it.
-    NaN where they are not known, as of a rotor. `friction_power` (W): mean over the later revolutions; of a rotor's blade with
-    the largest, over all.
+    NaN where they are not known, as of a rotor. `friction_power` (W): mean over the statistic; a rotor's largest, over all.
     """
 
     revolutions: int
@@ -114,9 +113,9 @@ def motion_at_end(
 
 
 def parts_of_run(choice: IntegrationChoice) -> list[int]:
-    """Revolutions of the parts of a run of which the last is a window, and all but the first where it may end after any.
+    """Revolutions of a run's parts: the last is a window, and so are all but the first where it may end after any.
 
-    The statistic begins with a part, where a whole number of windows is in it.
+    Else the statistic begins with the second.
     """
     window, later = window_of(choice.revolutions), choice.revolutions_in_statistic
     if not choice.until_settled:

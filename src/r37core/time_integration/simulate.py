@@ -1,6 +1,6 @@
 """Simulation of one blade at one speed in one scene."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import ClassVar, Self
 
@@ -98,6 +98,9 @@ class Simulation:
                 settled = has_settled(rms, parts[-1], growth, risen)
             if settled:
                 break
+        later = max(done - choice.revolutions_in_statistic * per_revolution, 0)
+        heat = heats[done] - np.interp(later, list(heats), list(heats.values()))
+        power = heat / ((done - later) * problem.grid.steps_per_sample * problem.grid.time_step)
         record = self.recorded(0, out, done)
         if choice.until_settled:
             instants = choice.snapshots_per_revolution * choice.snapshot_revolutions
@@ -106,19 +109,11 @@ class Simulation:
             problems=[problem],
             states=[state],
             records=[record],
-            ending=Ending(state.samples // per_revolution, settled, growth, steps, self._friction_power(heats)),
+            ending=Ending(state.samples // per_revolution, settled, growth, steps, float(power)),
             initial_energy=energy,
             energy_change=self.energy(state) - energy,
             contact_work=self.work(state),
         )
-
-    def _friction_power(self, heats: Mapping[int, float]) -> float:
-        """Mean power (W) over the statistic, from the heat (J) by the ends of parts, in samples; NaN of no sample."""
-        grid, choice, done = self.problem.grid, self.problem.choice, max(heats)
-        later = done - choice.revolutions_in_statistic * choice.samples_per_revolution
-        since = max((end for end in heats if end <= later), default=0)
-        time = (done - since) * grid.steps_per_sample * grid.time_step
-        return (heats[done] - heats[since]) / time if time else np.nan
 
     def parts(
         self, state: SimulationState, samples: Iterable[int], out: SimulationRecord | None = None
