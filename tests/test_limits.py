@@ -3,12 +3,19 @@
 import numpy as np
 import pytest
 import xarray as xr
+from quadratic_cases import LENGTH, SOFT_SIDEWAYS, beam_mesh, beam_model, free_blade, held
 
+from r37core.fem.equilibrium import Rotation
+from r37core.fem.large_displacement import LargeDisplacement
+from r37core.fem.matrices import assemble
+from r37core.fem.solver import factorise, lowest_modes
 from r37core.requirements.choice import Requirements
 from r37core.requirements.evidence import Evidence
 from r37core.requirements.judging import FAILS, MEETS, UNKNOWN, judge
 from r37core.results.limits import OF_LIMITS, beyond_limits, reasons_beyond_limits
 from r37core.results.operating_range import OperatingRange
+from r37core.rom.quadratic_terms import PATH_SHARES
+from r37core.rom.reduced_model import contact_model
 
 WITHIN = {
     "peak_share_of_height": 0.1,
@@ -24,7 +31,7 @@ BEYOND = {
     "peak_share_of_height": (0.13, "moves by up to 0.13 of"),
     "largest_normal_force": (701.0, "reach 701 N"),
     "energy_residual_share": (0.021, "0.021 of the energy"),
-    "bounded_share_of_time": (1e-6, "friction.coefficient"),
+    "bounded_share_of_time": (1e-6, "friction.coefficient shows"),
     "friction_power": (9100.0, "9.1e+03 W"),
 }
 
@@ -67,3 +74,38 @@ def test_a_verdict_beyond_a_limit_meets_nothing(name, share, within, beyond):
         (row,) = judge(Requirements(above_yield=0.0), evidence)
         assert row["verdict"] == verdict
         assert (BEYOND[name][1] in row["note"]) == (bool(changes) and last == 1002.0)
+
+
+def held_by_full_finite_elements(share):
+    """Amplitude of the lowest mode at rest and displacement (m) of the tip, held by a load on it: Newton's method."""
+    mesh = beam_mesh()
+    matrices = assemble(mesh, SOFT_SIDEWAYS)
+    solid = LargeDisplacement(mesh.blocks, mesh.points, SOFT_SIDEWAYS)
+    rotation, mass, tip = Rotation(solid, matrices, follows=False), matrices.mass(), mesh.node_set("tip_pressure_edge")[0]
+    (square,), mode = lowest_modes(matrices.stiffness(), mass, 1, matrices.solve_at_rest)
+    load = square * (mass @ mode[:, 0]) * share * LENGTH / np.linalg.norm(rotation.whole(mode[:, 0])[tip])
+    displacement = np.zeros_like(mesh.points)
+    for part in np.repeat([0.25, 0.5, 0.75, 1.0], [5, 5, 5, 15]):
+        residual = part * load - rotation.free(solid.forces(displacement))
+        displacement = displacement + rotation.whole(factorise(rotation.tangent(displacement, 0.0))(residual))
+    assert np.linalg.norm(load - rotation.free(solid.forces(displacement))) < 1e-6 * np.linalg.norm(load)
+    return abs(mode[:, 0] @ (mass @ rotation.free(displacement))), displacement[tip]
+
+
+@pytest.mark.parametrize("share", [0.1, 0.15, 0.2])
+def test_error_of_the_path_is_that_against_full_finite_elements(share):
+    """The reduced model at their amplitude; the scene's clearance says where that is too much."""
+    model = beam_model()
+    amplitude, (radial, across, _) = held_by_full_finite_elements(share)
+    simulation, operator = free_blade(model, 1.0), contact_model(model, "pressure_edge").tip_displacement_operator
+    force = np.zeros(len(simulation.problem.blade.frequencies))
+    path = []
+    for factor in (0.9, 1.0, 1.1):
+        force[0] = factor * amplitude * simulation.problem.blade.frequencies[0] ** 2
+        stepped, at_rest = held(simulation, force)
+        path.append((abs(stepped[0]), operator[0, 0] @ at_rest))
+    curve = np.polyfit(*np.transpose(path), 2)
+    error = np.interp(abs(across) / LENGTH, PATH_SHARES, model.quadratic.path_errors)
+    assert error == pytest.approx(abs(np.polyval(curve, amplitude) - radial), rel=0.1)
+    assert model.quadratic.share_within(error) == pytest.approx(abs(across) / LENGTH, rel=1e-6)
+    assert model.quadratic.share_within(1.0) == 0.2

@@ -6,18 +6,20 @@ from typing import Any
 import numpy as np
 
 _MOTION, _PAGE = "peak_share_of_height", "(docs/large_motion.md#limits)"
+_FED = "; with a smaller time step it may diverge, and a smaller friction.coefficient shows whether friction feeds it"
 
 _LIMITS: dict[str, tuple[str | float, str]] = {
     _MOTION: (
         "share_of_height_limit",
-        "the tip moves by up to {:.2g} of the blade's height; second order follows full finite elements to {:.2g} " + _PAGE,
+        "the tip moves by up to {:.2g} of the blade's height; second order follows full finite elements to {:.2g} "
+        + _PAGE
+        + _FED,
     ),
     "largest_normal_force": (700.0, "contact forces reach {:.3g} N a node; at {:g} N a revolution is 9% off " + _PAGE),
     "energy_residual_share": (0.02, "up to {:.2g} of the energy put in is lost, above {:g}: take a smaller time step"),
     "bounded_share_of_time": (
         0.0,
-        "only the bound on the elastic energy ends the growth of the motion, in up to {:.2g} of the steps: a smaller time step "
-        "may diverge; a smaller friction.coefficient shows whether friction feeds it",
+        "only the bound on the elastic energy ends the growth of the motion, in up to {:.2g} of the steps" + _FED,
     ),
     "friction_power": ("melting_power", "friction dissipates up to {:.2g} W; a tenth of {:.2g} W melts the tip in a second"),
 }
