@@ -77,7 +77,7 @@ def test_a_verdict_beyond_a_limit_meets_nothing(name, share, within, beyond):
 
 
 def held_by_full_finite_elements(share):
-    """Amplitude of the lowest mode, radial and tangential displacement (m) of the tip, held by a load on it: Newton's method."""
+    """Amplitude of the lowest mode, radial and tangential displacement (m) of the tip, by Newton's method."""
     mesh = beam_mesh()
     matrices = assemble(mesh, SOFT_SIDEWAYS)
     solid = LargeDisplacement(mesh.blocks, mesh.points, SOFT_SIDEWAYS)

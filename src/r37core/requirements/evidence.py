@@ -116,12 +116,6 @@ class Evidence:
         return f"the motion still grows as the run ends, at {speeds[0]:.5g} rad/s" if len(speeds) else ""
 
     @property
-    def beyond_limits(self) -> list[str]:
-        """Reasons why runs in operation, and further ones, are beyond the model's limits."""
-        parts = [self.response.isel(speed=np.flatnonzero(self.operates)), *self.looks.values()]
-        return list(dict.fromkeys(reason for part in parts for reason in reasons_beyond_limits(part)))
-
-    @property
     def divergence(self) -> str:
         """How many runs in operation diverged, and when; empty where none did."""
         runs = self.response.isel(speed=np.flatnonzero(self.operates))
@@ -164,6 +158,12 @@ class Evidence:
             # the share itself is that of yield, so only which side of it most revolutions lie on is known
             changed["share_of_revolutions_above_yield"] = xr.where(above, np.maximum(share, 1.0), np.minimum(share, 0.0))
         return self.replaced(runs.assign(changed))
+
+
+def beyond_model(evidence: Evidence) -> list[str]:
+    """Reasons why runs in operation, and further ones, are beyond the model's limits."""
+    parts = [evidence.response.isel(speed=np.flatnonzero(evidence.operates)), *evidence.looks.values()]
+    return list(dict.fromkeys(reason for part in parts for reason in reasons_beyond_limits(part)))
 
 
 def operated_alone(evidence: Evidence) -> Evidence:

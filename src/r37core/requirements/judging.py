@@ -15,7 +15,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import Requirements
-from .evidence import Evidence, extended, lacking, operated_alone, scatter_of_length, worst_of
+from .evidence import Evidence, beyond_model, extended, lacking, operated_alone, scatter_of_length, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
@@ -180,7 +180,7 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     elif row["verdict"] == MEETS and not evidence.touches:
         row["note"] = NO_CONTACT
     elif row["verdict"] == FAILS:
-        row["note"] = "; ".join(filter(None, [row["note"], *evidence.beyond_limits]))
+        row["note"] = "; ".join(filter(None, [row["note"], *beyond_model(evidence)]))
     return row
 
 
@@ -214,7 +214,7 @@ def _left_out(evidence: Evidence, note: str) -> list[str]:
     """Reasons why runs cannot show that a limit is met, by what they leave out; `note`: on the value."""
     reasons = [bound for bound in (LOWER_BOUND, VIBRATION_ALONE) if bound in note]
     reasons += [text for text in (evidence.not_looked, evidence.point_contact and ON_POINTS) if text and evidence.touches]
-    return reasons + evidence.beyond_limits
+    return reasons + beyond_model(evidence)
 
 
 def _tried(evidence: Evidence) -> dict[str, Evidence]:
