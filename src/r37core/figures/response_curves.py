@@ -70,7 +70,7 @@ def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
         runs = rms.sel(scene=scene)
         response = runs[f"rms_{direction}"].sel(tip_point="leading_edge").dropna("speed")
         (line,) = axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=style.scene_words(scene))
-        _mark_motion(axes, 1e3 * response, runs.sel(speed=response["speed"]), line.get_color())
+        _mark_motion(axes, 1e3 * response, runs.sel(speed=response["speed"].values), line.get_color())
         style.mark_diverged(axes, runs["speed"].values[runs["status"].values == RunStatus.DIVERGED])
 
 

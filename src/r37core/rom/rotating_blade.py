@@ -152,11 +152,11 @@ class RotatingBlade:
         self._solid.series(self._equilibria[0], _PATH_ORDER, next_term)
         first, second = mode_pairs(lowest.shape[1])
         squared = (static - lowest @ (lowest.T @ (mass @ static))) * np.where(first == second, 0.5, 1.0)
-        at_tip = np.array([self._rotation.whole(field)[self._tip] for field in (*terms, *lowest.T, *squared.T)])
+        tip_moves = np.array([self._rotation.whole(field)[self._tip] for field in (*terms, *lowest.T, *squared.T)])
         x, y = (self._points[self._tip, :2] / np.hypot(*self._points[self._tip, :2].T)[:, None]).T
         radial, across = (
-            at_tip[..., 0] * x + at_tip[..., 1] * y,
-            at_tip[:_PATH_ORDER, :, 1] * x - at_tip[:_PATH_ORDER, :, 0] * y,
+            tip_moves[..., 0] * x + tip_moves[..., 1] * y,
+            tip_moves[:_PATH_ORDER, :, 1] * x - tip_moves[:_PATH_ORDER, :, 0] * y,
         )
         powers = (np.linspace(-0.3, 0.3, 601)[:, None] * self._height / np.abs(across[0]).max()) ** orders
         q, path = powers @ np.array(terms) @ (mass @ lowest), powers @ radial[:_PATH_ORDER]
