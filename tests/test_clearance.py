@@ -81,6 +81,7 @@ def test_the_gap_follows_the_table_in_both_engines():
         runs = [run_of(random_blade(3), scene, engine=engine) for engine in ENGINES]
         (found, totals), (expected, expected_totals) = runs
         assert totals["steps_in_contact"] == expected_totals["steps_in_contact"] > 0
+        assert totals["friction_heat"] == pytest.approx(expected_totals["friction_heat"], rel=1e-5) != 0.0
         # a block that begins without contact measures its gaps anew
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
     np.testing.assert_allclose(casing.change_at(np.array([0.5, 1.0, 1.75, 9.0])), [5e-5, 1e-4, 4e-5, -2e-5])
