@@ -62,7 +62,7 @@ def assert_same_state(ours, theirs, within=1e-10):
     """Of the states that two engines leave; `within`: of the largest wear, for each bar's."""
     for total in ("steps", "steps_in_contact", "casing_hits"):
         assert ours.totals[total] == theirs.totals[total]
-    for total in ("largest_force", "work", "loss"):
+    for total in ("largest_force", "work", "loss", "friction_heat"):
         assert ours.totals[total] == pytest.approx(theirs.totals[total], rel=1e-8)
     if ours.wear.size:
         assert_close(ours.wear, theirs.wear, within)

@@ -25,10 +25,15 @@ FAR = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
 CHOICE = IntegrationChoice(6.4e-6, 200, 62, integrator=EXACT_MODAL)
 
 
+def beam_mesh(along_axis=False, start=0.0):
+    """Mesh of the beam of beam_model."""
+    width, height = (WIDTH, THICKNESS) if along_axis else (THICKNESS, WIDTH)
+    return box_mesh(LENGTH, width, height, (16, 1, 1), origin=(start, -width / 2, -height / 2), element="hexahedron20")
+
+
 def beam_model(along_axis=False, start=0.0, maximum=20.0, kinematics="quadratic", modes=1):
     """Reduced model of a thin beam that stands out from the axis, bending along theta or, if asked for, along the axis."""
-    width, height = (WIDTH, THICKNESS) if along_axis else (THICKNESS, WIDTH)
-    mesh = box_mesh(LENGTH, width, height, (16, 1, 1), origin=(start, -width / 2, -height / 2), element="hexahedron20")
+    mesh = beam_mesh(along_axis, start)
     regions = {"all": RegionChoice(minimum_span=0.05)}
     speeds = (0.0, 0.5 * maximum, maximum)
     reduction = ReductionChoice(speeds, 10, kinematics=kinematics, quadratic_modes=modes)

@@ -119,6 +119,7 @@ class ReferenceEngine:
         self._add_up(state, self.motion.work_and_loss(before, after, force), pressure + multipliers, multipliers > 0.0)
         if np.any(pressure + multipliers > 0.0):
             self._measure_edge(state, after, n)
+        state.totals["friction_heat"] += self._heat(pressure + multipliers)
         return after
 
     def force(self, state):
@@ -136,6 +137,7 @@ class ReferenceEngine:
             self._follow_gaps(opened, theta, n, state, self.problem.scene.lining)
         self._add_up(state, self.motion.work_and_loss(before, after, force), -state.contact_force[0], touching)
         state.contact_force[:] = pressure * directions
+        state.totals["friction_heat"] += self._heat(pressure)
         if np.any(pressure > 0.0):
             self._measure_edge(state, after, n)
         return after
@@ -179,8 +181,14 @@ class ReferenceEngine:
         if friction.vector:
             along, across = along + self.tangential @ d / self.time_step, self.meridional @ d / self.time_step
         # Coulomb: mu times the normal force, opposite to the sliding
+        self._sliding = np.hypot(along, across) * self.time_step
         share = -friction.coefficient / np.hypot(along, across)
         return np.array([towards_axis, share * along, share * across])
+
+    def _heat(self, pressure):
+        """Work (J) of the friction in a step, of normal forces (N) on the nodes, against their sliding."""
+        friction = self.problem.scene.friction
+        return 0.0 if friction is None else friction.coefficient * float(pressure @ self._sliding)
 
     def _modal(self, forces):
         """Modal forces of forces (N) on the nodes, shape (3, nodes, ...)."""

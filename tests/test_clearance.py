@@ -32,6 +32,7 @@ from r37core.run_ups.revolutions import record_run_up
 from r37core.stress.operator import von_mises
 from r37core.time_integration.clearance import NoRoomError, check_room, clearances, growth
 from r37core.time_integration.problem import Problem
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 
@@ -55,6 +56,48 @@ def moved(nodes, size=2e-5, stiffening=(0.0, 2e-7), blade=random_blade):
     generator = np.random.default_rng(5)
     shapes = generator.standard_normal((3, nodes, len(stiffening))) * size * 1e-6
     return replace(blade(nodes), rotation_shapes=shapes, rotation_stiffening=np.array(stiffening))
+
+
+@pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["lined", "bare"])
+def test_a_table_over_revolutions_ends_contact_where_it_opens(scene):
+    """A table of zeros has the bits of none; one that opens by a centimetre in the fourth revolution leaves none after it."""
+    steps = {}
+    for name, change in (("none", ()), ("zeros", (0.0, 0.0, 0.0)), ("opens", (0.0, 0.0, 0.01))):
+        casing = replace(scene.casing, rise_fraction=0.0, change_revolutions=(0.0, 3.0, 4.0)[: len(change)], change=change)
+        simulation = Simulation(random_blade(3), 1000.0, replace(scene, casing=casing), replace(SHORT, revolutions=7))
+        state, found = simulation.start(), []
+        for _ in range(7):
+            record = simulation.advance(state, 1)
+            found.append((float(state.totals["steps_in_contact"]), record.samples.tobytes(), state.wear.tobytes()))
+        steps[name] = found
+    assert steps["zeros"] == steps["none"] and steps["opens"][:3] == steps["none"][:3]
+    contact = np.array([found[0] for found in steps["opens"]])
+    assert contact[0] > 0.0 and np.all(contact[4:] == contact[3]) and steps["none"][6][0] > contact[6]
+
+
+def test_the_gap_follows_the_table_in_both_engines():
+    casing = replace(DIRECT.casing, rise_fraction=0.0, change_revolutions=(0.0, 1.0, 2.5), change=(0.0, 1e-4, -2e-5))
+    for scene in (replace(DIRECT, casing=casing), replace(ABRADABLE, casing=casing)):
+        runs = [run_of(random_blade(3), scene, engine=engine) for engine in ENGINES]
+        (found, totals), (expected, expected_totals) = runs
+        assert totals["steps_in_contact"] == expected_totals["steps_in_contact"] > 0
+        assert totals["friction_heat"] == pytest.approx(expected_totals["friction_heat"], rel=1e-5) != 0.0
+        # a block that begins without contact measures its gaps anew
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
+    np.testing.assert_allclose(casing.change_at(np.array([0.5, 1.0, 1.75, 9.0])), [5e-5, 1e-4, 4e-5, -2e-5])
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ({"revolutions": [0, 5, 5], "change_m": [0, 0, 0]}, "ascending revolutions, the first of them 0"),
+        ({"revolutions": [0, 5], "change_m": [0, 0, 0]}, "3 numbers for 2 revolutions"),
+        ({"revolutions": [0, 5], "change_m": [1e-4, 0]}, "the clearance there is clearance_m"),
+    ],
+)
+def test_a_wrong_table_over_revolutions_is_refused(table, message):
+    with pytest.raises(ConfigError, match=message):
+        checked_scene({"casing": {"clearance_m": 1e-4, "clearance_over_revolutions": table}})
 
 
 def run_of(model, scene, choice=SHORT, engine="compiled"):

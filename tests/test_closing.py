@@ -154,12 +154,13 @@ def test_scenes_that_touch_nothing_are_named(tmp_path):
 
 
 def test_motions_beyond_the_second_order_are_told(tmp_path):
-    runs = _runs([0, 0, 0], [[[1.0, 1.0, 1.0]]], ["bare"])
+    runs, dims = _runs([0, 0, 0], [[[1.0, 1.0, 1.0]]], ["bare"]), ("blade", "scene", "speed")
     for shares, said in (([np.nan, 0.1, 0.2], 3), ([0.1, 0.3, 0.25], 4)):
-        runs.assign(peak_share_of_height=(("blade", "scene", "speed"), [[shares]])).to_netcdf(tmp_path / "rms.nc")
+        limits = {"peak_share_of_height": (dims, [[shares]]), "share_of_height_limit": (dims, [[[0.2, 0.2, 0.26]]])}
+        runs.assign(limits).to_netcdf(tmp_path / "rms.nc")
         lines = closing_lines(written(tmp_path), 0.0, 1.0)
         assert len(lines) == said
-    assert lines[1].startswith("in 2 runs the tip moves by more than 0.2 of the blade's height, by up to 0.3, where ")
+    assert lines[1].startswith("beyond the model's limits in 1 run: the tip moves by up to 0.3 of the blade's height; ")
 
 
 def test_linings_are_compared_with_the_tips_of_the_blades():

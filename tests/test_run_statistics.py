@@ -251,7 +251,12 @@ def test_a_drift_is_followed_as_it_shrinks():
 
 def test_parts_are_windows_and_each_revolution_has_its_rms():
     fixed = replace(CHOICE, until_settled=False)
-    assert [parts_of_run(replace(fixed, revolutions=n)) for n in (2, 7, 200, 1000)] == [[1, 1], [6, 1], [150, 50], [950, 50]]
+    assert [parts_of_run(replace(fixed, revolutions=n)) for n in (2, 7, 200, 1000)] == [
+        [1, 1],
+        [3, 3, 1],
+        [100, 50, 50],
+        [500, 450, 50],
+    ]
     assert [parts_of_run(replace(CHOICE, revolutions=n)) for n in (3, 30, 220)] == [[1] * 3, [9, 7, 7, 7], [70, 50, 50, 50]]
     motion = np.array([[3.0, 4.0], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     np.testing.assert_allclose(revolution_rms(motion, 2), [np.sqrt(12.5), 1.0])

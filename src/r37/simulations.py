@@ -14,7 +14,7 @@ from r37core.base.io import FILE_ATTRIBUTES, Named, scratch_folder
 from r37core.config import ConfigError
 from r37core.config.remarks import remarks_on_materials
 from r37core.plans.provenance import Provenance
-from r37core.results.closing import remarks_on_contact
+from r37core.results.closing import remarks_on_contact, remarks_on_limits
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 
 from .arguments import Speeds, speed_key, speed_keys
@@ -162,7 +162,9 @@ def _response(call: Call, cores: int, motion: InitialMotion | None = None) -> xr
     (blade,), (scene,) = call.blades, call.scenes
     with scratch_folder() as folder:
         response = read_dataset(Calculation(call.settings, folder, cores).response(motion))
+    name = f"{blade.label} in {scene.label}"
     # free flight is what a start in motion may be for
     if motion is None:
-        tell(remarks_on_contact([(f"{blade.label} in {scene.label}", response["largest_normal_force"].values)]))
+        tell(remarks_on_contact([(name, response["largest_normal_force"].values)]))
+    tell(remarks_on_limits(response, f"{name}: "))
     return response.assign_attrs(call.told)

@@ -35,13 +35,30 @@ class GrowthSection(Section):
         keys = [key for key in ("speeds_rad_s", "speeds_rpm") if getattr(self, key) is not None]
         if len(keys) != 1:
             raise refused((), " and ".join(keys) or "no speeds", "speeds_rad_s or speeds_rpm")
-        speeds = getattr(self, keys[0])
-        if speeds[0] != 0.0 or any(after <= before for before, after in pairwise(speeds)):
-            raise refused((keys[0],), f"{speeds}", "ascending speeds, the first of them 0")
-        if len(speeds) != len(self.growth_m):
-            raise refused(("growth_m",), f"{len(self.growth_m)} numbers for {len(speeds)} speeds", "one for each speed")
-        if self.growth_m[0] != 0.0:
-            raise refused(("growth_m", 0), f"{self.growth_m[0]:g} at speed 0", "0; the clearance there is cold_m")
+        _check_table(keys[0], getattr(self, keys[0]), "speed", "growth_m", self.growth_m, "cold_m")
+
+
+class ChangeSection(Section):
+    """Change of the clearance within a run, by heat and wear of the tip; linear between revolutions, constant beyond."""
+
+    revolutions: list[Annotated[float, Field(ge=0, le=20000)]] = Field(
+        min_length=2, description="Ascending revolutions from the start of each run, the first of them 0"
+    )
+    change_m: list[Annotated[float, Field(ge=-0.01, le=0.01)]] = Field(
+        min_length=2, description="Change at each, normal to the casing, positive where the gap opens; 0 at the first"
+    )
+
+    def _check(self) -> None:
+        _check_table("revolutions", self.revolutions, "revolution", "change_m", self.change_m, "clearance_m")
+
+
+def _check_table(key: str, places: list[float], place: str, name: str, values: list[float], clearance: str) -> None:
+    if places[0] != 0.0 or any(after <= before for before, after in pairwise(places)):
+        raise refused((key,), f"{places}", f"ascending {place}s, the first of them 0")
+    if len(places) != len(values):
+        raise refused((name,), f"{len(values)} numbers for {len(places)} {place}s", f"one for each {place}")
+    if values[0] != 0.0:
+        raise refused((name, 0), f"{values[0]:g} at {place} 0", f"0; the clearance there is {clearance}")
 
 
 class ClearanceSection(Section):
@@ -88,6 +105,7 @@ class CasingSection(Section):
 
     clearance_m: Any = DECLARED
     clearance: ClearanceSection | LeftOut = None
+    clearance_over_revolutions: ChangeSection | LeftOut = None
     cone_angle_deg: Any = DECLARED
     lobes: Any = DECLARED
     width: Any = DECLARED
@@ -136,10 +154,12 @@ class CasingSection(Section):
 
     def casing(self) -> Casing:
         """The casing as the simulations take it."""
-        elastic = {"ring": self.elastic_casing().modes, "ring_radius": self.ring.radius_m if self.ring else None}
+        more: dict[str, Any] = {"ring": self.elastic_casing().modes, "ring_radius": self.ring.radius_m if self.ring else None}
+        if (change := self.clearance_over_revolutions) is not None:
+            more |= {"change_revolutions": tuple(change.revolutions), "change": tuple(change.change_m)}
         if self.clearance is None:
-            return si_form(Casing, self, **elastic)
+            return si_form(Casing, self, **more)
         table = si_fields(self.clearance.casing_growth or ())
         growth = {"growth_speeds": table.get("speeds", ()), "growth": table.get("growth", ())}
         cold = {"clearance": self.clearance.cold_m, "centrifugal": self.clearance.centrifugal}
-        return si_form(Casing, self, **elastic, **cold, **growth)
+        return si_form(Casing, self, **more, **cold, **growth)

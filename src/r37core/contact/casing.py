@@ -27,6 +27,8 @@ class Casing:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
     `growth_speeds` (rad/s), ascending, and linear between them. The lobes stay as they are.
 
+    `change` (m) of the clearance by heat and tip wear, at `change_revolutions` of a run: linear between, constant beyond.
+
     `longer` (m): by how much the blade is longer than its model, as one of a rotor may be; it has so much less clearance.
 
     `ring`: modes of a flexible casing, which the contact forces move; without them it is rigid. `ring_radius` (m): of the ring
@@ -56,6 +58,8 @@ class Casing:
     longer: float = 0.0
     growth_speeds: tuple[float, ...] = ()
     growth: tuple[float, ...] = ()
+    change_revolutions: tuple[float, ...] = ()
+    change: tuple[float, ...] = ()
     ring: tuple[RingMode, ...] = ()
     ring_radius: float | None = None
 
@@ -107,6 +111,10 @@ class Casing:
                 f"casing.clearance.casing_growth: given up to {self.growth_speeds[-1]:g} rad/s; needed up to {highest:g} rad/s"
             )
         return np.interp(speeds, self.growth_speeds, self.growth)
+
+    def change_at(self, revolutions: np.ndarray) -> np.ndarray:
+        """Clearance (m) that so many revolutions of a run add, in their shape."""
+        return np.interp(revolutions, self.change_revolutions or (0.0,), self.change or (0.0,))
 
 
 def rise_rate(rise_time: float) -> float:

@@ -14,8 +14,12 @@ from r37core.time_integration.status import RunStatus
 
 from . import style
 
-_MOTION_MARKERS = {MotionAtEnd.CUT_FREE: ("o", "cut free at the end"), MotionAtEnd.GROWING: ("^", "growing at the end")}
-"""State of the motion at the end of a run -> its open marker, and what it is called."""
+_MARKERS = (
+    ("motion_at_end", MotionAtEnd.CUT_FREE, "o", "cut free at the end"),
+    ("motion_at_end", MotionAtEnd.GROWING, "^", "growing at the end"),
+    ("beyond_limits", 1.0, "s", "beyond the model's limits"),
+)
+"""Variable and state of a run that is marked, its open marker, and what it is called."""
 
 
 def draw_response(
@@ -66,15 +70,14 @@ def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
         runs = rms.sel(scene=scene)
         response = runs[f"rms_{direction}"].sel(tip_point="leading_edge").dropna("speed")
         (line,) = axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=style.scene_words(scene))
-        if "motion_at_end" in runs:
-            _mark_motion(axes, 1e3 * response, runs["motion_at_end"].sel(speed=response["speed"]), line.get_color())
+        _mark_motion(axes, 1e3 * response, runs.sel(speed=response["speed"].values), line.get_color())
         style.mark_diverged(axes, runs["speed"].values[runs["status"].values == RunStatus.DIVERGED])
 
 
-def _mark_motion(axes: Axes, curve: xr.DataArray, states: xr.DataArray, colour: Any) -> None:
-    """Open markers on a curve over speed where a run's motion has cut itself free, or still grows, by `states`."""
-    for state, (marker, label) in _MOTION_MARKERS.items():
-        there = curve[states.values == state]
+def _mark_motion(axes: Axes, curve: xr.DataArray, runs: xr.Dataset, colour: Any) -> None:
+    """Open markers on a curve over speed where a run's motion has cut itself free, or still grows, or is beyond limits."""
+    for name, state, marker, label in _MARKERS:
+        there = curve[runs[name].values == state] if name in runs else curve[:0]
         if there.size:
             axes.plot(there["speed"], there, marker, color=colour, fillstyle="none", markersize=4, label=label)
 

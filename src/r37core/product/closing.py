@@ -14,14 +14,15 @@ from r37core.results.closing import (
     lining_texts,
     remarks_on_contact,
     remarks_on_diverged,
-    remarks_on_far_motions,
+    remarks_on_limits,
 )
 from r37core.results.columns import MOST, NOT_RESOLVED, SOME, above_yield
+from r37core.results.limits import OF_LIMITS
 from r37core.rom.reduction_choice import QUADRATIC
 from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
 
-_FAR = "peak_share_of_height"
+_SECOND_ORDER = "peak_share_of_height"
 
 MOST_SCENES = MOST_BLADES = 12
 """Scenes of which each has a line of its own, and blades that the line on all scenes names."""
@@ -214,12 +215,13 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
         with netCDF4.Dataset(file) as rms:
             status, names = rms["status"][:], [rms[name][:] for name in ("blade", "scene")]
             forces = np.ma.filled(rms["largest_normal_force"][:], np.nan)
-            reached = np.ma.filled(rms[_FAR][:], np.nan) if _FAR in rms.variables else np.full(status.shape, np.nan)
+            limited = {name: np.ma.filled(rms[name][:], np.nan) for name in OF_LIMITS if name in rms.variables}
             tip_numbers = {name: np.ma.filled(rms[name][:], np.nan).ravel() for name in LINING_AT_TIP if name in rms.variables}
     except OSError:
         # not there, or no dataset, which who reads it is told
         return "", []
     failed, runs = status == RunStatus.DIVERGED, (status != RunStatus.NOT_RUN).sum()
+    reached = limited.get(_SECOND_ORDER, np.full(status.shape, np.nan))
     diverged, linear = failed.sum(), ~np.isfinite(reached).any(axis=-1)
     pairs = list(product(*names))
     touching = zip(pairs, forces.reshape(-1, forces.shape[-1]), strict=True)
@@ -229,7 +231,7 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
         lined = []
     linings = lining_texts({pairs[pair]: {name: values[pair] for name, values in tip_numbers.items()} for pair in lined})
     fed = [" in ".join(pairs[number]) for number in np.flatnonzero(failed.any(axis=-1) & linear)]
-    far = remarks_on_diverged(fed) + remarks_on_far_motions(reached)
+    far = remarks_on_diverged(fed) + remarks_on_limits(limited)
     return f"; {diverged} of {runs} runs diverged" if diverged else "", [*untouched, *far, *linings]
 
 

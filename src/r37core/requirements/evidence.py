@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.results.datasets import overlaid
+from r37core.results.limits import OF_LIMITS, reasons_beyond_limits
 from r37core.results.operating_range import OperatingRange
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
@@ -26,6 +27,7 @@ JUDGED = (
     "used_thickness",
     "worn_through_share",
     "share_of_time_in_contact",
+    *OF_LIMITS,
 )
 """Variables over the speeds that requirements are judged by."""
 
@@ -188,6 +190,12 @@ def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
     stepped = 2.0 * values[peaks] - np.maximum(values[peaks - 1], values[peaks + 1])
     reach[peaks] = np.where(np.maximum(before, after) > LEAST_STEP, resonance, stepped)
     return reach
+
+
+def beyond_model(evidence: Evidence) -> list[str]:
+    """Reasons why runs in operation, and further ones, are beyond the model's limits."""
+    parts = [evidence.response.isel(speed=np.flatnonzero(evidence.operates)), *evidence.looks.values()]
+    return list(dict.fromkeys(reason for part in parts for reason in reasons_beyond_limits(part)))
 
 
 def operated_alone(evidence: Evidence) -> Evidence:

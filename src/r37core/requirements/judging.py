@@ -18,7 +18,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import Requirements
-from .evidence import Evidence, extended, lacking, operated_alone, worst_of
+from .evidence import Evidence, beyond_model, extended, lacking, operated_alone, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
@@ -196,7 +196,7 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
         # another motion that keeps the limit takes nothing from one that does not
         kept = [name for name, margin in margins.items() if margin >= 0.0 and name not in motions]
         doubts = [f"meets {' and '.join(kept)}"] if kept else []
-        notes.append(_how_much(only, evidence))
+        notes += [_how_much(only, evidence), *beyond_model(evidence)]
     else:
         growing = next(filter(None, (_growing(only, name, other) for name, other in ({"": evidence} | others).items())), "")
         combined = {
@@ -250,7 +250,7 @@ def _left_out(only: Requirements, evidence: Evidence, note: str) -> list[str]:
         evidence.point_contact and ON_POINTS,
         np.isnan(evidence.error) and NOT_MEASURED,
     )
-    return reasons + [text for text in doubts if text and evidence.touches]
+    return reasons + [text for text in doubts if text and evidence.touches] + beyond_model(evidence)
 
 
 def _tried(evidence: Evidence) -> dict[str, Evidence]:

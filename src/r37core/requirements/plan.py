@@ -149,7 +149,8 @@ class Judged:
     def clearance(self) -> dict[str, float]:
         """Clearance (m) of each scene where it is the same at every speed."""
         casings = {name: chosen.scene.casing for name, chosen in self.sweep.settings.scenes.items()}
-        return {name: casing.clearance for name, casing in casings.items() if not casing.changes_with_speed}
+        smallest = {name: casing.clearance + min(casing.change, default=0.0) for name, casing in casings.items()}
+        return {name: clearance for name, clearance in smallest.items() if not casings[name].changes_with_speed}
 
     @property
     def thickness(self) -> dict[str, float]:

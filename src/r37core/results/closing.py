@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from r37core.rom.quadratic_terms import SHARE_OF_HEIGHT
+from .limits import beyond_limits, reasons_beyond_limits
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -22,14 +22,11 @@ def remarks_on_diverged(linear: Sequence[str]) -> list[str]:
     return [remark] if linear else []
 
 
-def remarks_on_far_motions(shares: np.ndarray) -> list[str]:
-    """A line on runs whose tip goes farther than displacements of second order hold; `shares`: peak_share_of_height."""
-    far = shares[shares > SHARE_OF_HEIGHT]
-    remark = (
-        f"in {counted(len(far), 'run')} the tip moves by more than {SHARE_OF_HEIGHT:g} of the blade's height, by up to "
-        f"{far.max(initial=0.0):.2g}, where displacements of second order are 2% wrong and more (docs/large_motion.md#limits)"
-    )
-    return [remark] if far.size else []
+def remarks_on_limits(runs: Mapping[Any, Any], prefix: str = "") -> list[str]:
+    """A line on runs beyond the model's limits, with the reasons; `runs`: as of reasons_beyond_limits."""
+    beyond = counted(int(beyond_limits(runs).sum()), "run")
+    reasons = reasons_beyond_limits(runs)
+    return [f"{prefix}beyond the model's limits in {beyond}: {'; '.join(reasons)}"] if reasons else []
 
 
 def counted(number: int, name: str) -> str:

@@ -12,6 +12,7 @@ from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
 from .joining import create_axis, create_variable
+from .limits import beyond_limits
 from .measures import first_yield
 from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, PLACES, VARIABLES
 
@@ -59,6 +60,7 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
         values |= {f"{kind}_{direction}": column for direction, column in zip(DIRECTIONS, run[kind].T, strict=True)}
     values["revolution_maximum"] = run["revolution_maxima"][:, :, DIRECTIONS.index("normal")]
     values["revolution"] = np.arange(1, len(values["revolution_maximum"]) + 1)
+    values["beyond_limits"] = beyond_limits(run)
     if "amplitude" in run:
         values["amplitude"], values["amplitude_tangential"] = run["amplitude"]
     if "wear" in run:

@@ -30,7 +30,13 @@ _MOTION = {
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
         for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
     },
-    "peak_share_of_height": Variable((), "1", "largest displacement over the blade's height: second order is 2% wrong at 0.2"),
+    "peak_share_of_height": Variable((), "1", "largest displacement over the blade's height"),
+    "share_of_height_limit": Variable((), "1", "share of the height beyond which second order leaves full finite elements"),
+    "beyond_limits": Variable((), "1", "1 where the run is beyond the model's limits", "f4"),
+    "bounded_share_of_time": Variable((), "1", "share of the steps in which the bound on the elastic energy acts"),
+    "energy_residual_share": Variable((), "1", "size of the energy residual over the largest of work, loss and energy change"),
+    "friction_power": Variable((), "W", "mean power of the friction over the later revolutions"),
+    "melting_power": Variable((), "W", "power of the friction of which a tenth melts the tip in a second"),
     "motion_at_end": Variable((), "1", "state of the motion at the end of the run", "i1", MotionAtEnd),
     "settled_revolution": Variable((), "1", "revolution after which the run ended as it had settled, NaN where it did not"),
     "time_step": Variable((), "s", "step of the time integration that was taken"),

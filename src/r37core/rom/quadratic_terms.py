@@ -13,11 +13,18 @@ b_abcd - (\theta_ab K \theta_cd + \theta_ac K \theta_bd + \theta_ad K \theta_bc)
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 SHARE_OF_HEIGHT = 0.2
-"""Displacement, as a share of the blade's height, from which on displacements of second order are wrong by 2% and more."""
+"""Displacement, as a share of the blade's height, beyond which displacements of second order hold for no blade."""
+
+PATH_SHARES = np.linspace(0.0, SHARE_OF_HEIGHT, 21)
+"""Displacements, as shares of the blade's height, at which the error of the tip's path is known."""
+
+PATH_ERROR = 0.05
+"""Error of the tip's path, as a share of the clearance, beyond which displacements of second order do not hold."""
 
 MOST_QUADRATIC_MODES = 6
 """Largest number of modes with displacements of second order."""
@@ -28,7 +35,8 @@ class QuadraticTerms:
     """The terms at any speed, as polynomials of the abscissa t of r37core.rom.logarithmic_stiffness.
 
     `coordinates`, shape (modes, coordinates): mass products of the basis with the p_a of one speed, which those of the others
-    follow (see followed_modes); `derivatives`, shape (3, pairs, coordinates): coefficients of the mass products with theta_ab
+    follow (see followed_modes); `path_errors` (m), shape (shares,): of the tip's path in the lowest mode against full finite
+    elements, at PATH_SHARES; `derivatives`, shape (3, pairs, coordinates): coefficients of the mass products with theta_ab
     of the pairs a <= b; `cubic`, shape (3, modes, modes, modes, modes): of what is left of b; `height` (m) of the blade.
     """
 
@@ -36,15 +44,20 @@ class QuadraticTerms:
     derivatives: np.ndarray
     cubic: np.ndarray
     height: float
+    path_errors: np.ndarray
 
     @classmethod
     def through(
-        cls, places: np.ndarray, coordinates: np.ndarray, derivatives: np.ndarray, cubic: np.ndarray, height: float
+        cls, places: np.ndarray, coordinates: np.ndarray, derivatives: np.ndarray, cubic: np.ndarray, *more: Any
     ) -> QuadraticTerms:
         """Terms with these `derivatives` and `cubic` at three places of the abscissa, the first axis of each."""
         coefficients = np.linalg.inv(np.vander(places, increasing=True))
         derivatives, cubic = (np.tensordot(coefficients, values, axes=1) for values in (derivatives, cubic))
-        return cls(coordinates, derivatives, cubic, height)
+        return cls(coordinates, derivatives, cubic, *more)
+
+    def share_within(self, error: float) -> float:
+        """Share of the height up to which the tip's path is within an `error` (m) of full finite elements."""
+        return float(np.interp(error, self.path_errors, PATH_SHARES))
 
     def interpolated(self, place: float) -> tuple[np.ndarray, np.ndarray]:
         """`derivatives` and `cubic` at a place of the abscissa."""

@@ -40,6 +40,7 @@ _QUADRATIC_TERMS: dict[str, tuple[tuple[str, ...], str, str]] = {
     "derivatives": (("power", "mode_pair", "column"), "1", "mass product with the static derivatives of these modes"),
     "cubic": (("power", *_LARGE), "s-2 m-2 kg-1", "stiffness of third order of these modes where all others follow at once"),
     "height": ((), "m", "height of the blade"),
+    "path_errors": (("path_share",), "m", "error of the tip's path against full finite elements"),
 }
 _OF_NODES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "nodes": ((), "1", "mesh node numbers"),

@@ -20,12 +20,15 @@ from r37core.fem.large_displacement import LargeDisplacement
 from r37core.fem.material import Material
 from r37core.fem.matrices import StructuralMatrices
 from r37core.fem.solver import lowest_modes
-from r37core.mesh.blade_mesh import BladeMesh
+from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 from .craig_bampton import StateAtSpeed, projected, symmetric
 from .logarithmic_stiffness import LogarithmicStiffness
-from .quadratic_terms import QuadraticTerms, followed_modes, mode_pairs, pairings
+from .quadratic_terms import PATH_SHARES, QuadraticTerms, followed_modes, mode_pairs, pairings
 from .reduction_choice import QUADRATIC, ReductionChoice
+
+_PATH_ORDER, _CONVERGED = 12, 1e-4
+"""Order of the series of the path, and its last term, as a share of the height, up to which it has converged."""
 
 _RELATIVE_STIFFENING = np.array([0.0, 1.0, 4.0])
 """kappa Omega^2 at the highest speed of the three shapes of rotation; see r37core.rom.rotation."""
@@ -40,6 +43,8 @@ class RotatingBlade:
         self._matrices, self._reduction = matrices, reduction
         self._equilibria = [np.zeros_like(mesh.points)]
         self._height = float(np.ptp(np.hypot(*mesh.points[:, :2].T)))
+        self._points = mesh.points
+        self._tip = np.concatenate([mesh.node_set(name)[[0, -1]] for name in TIP_LINES.values()])
 
     @cached_property
     def _slope(self) -> np.ndarray:
@@ -114,7 +119,7 @@ class RotatingBlade:
         """
         count = self._reduction.quadratic_modes
         lowest = la.eigh(stiffness[1], mass, subset_by_index=(0, count - 1))[1]
-        coordinates, derivatives, cubic = lowest.T @ mass, [], []
+        coordinates, derivatives, cubic, errors = lowest.T @ mass, [], [], np.empty(0)
         for matrix, displacement in zip(stiffness, self._equilibria, strict=True):
             squares, modes = la.eigh(matrix, mass)
             followed = modes @ followed_modes(coordinates @ modes).T
@@ -123,9 +128,42 @@ class RotatingBlade:
             pushes = np.array([self._pushed(vectors, self._solid.second_derivative(displacement, *pair)) for pair in pairs])
             third = pairings(self._solid.strain_energies(pairs), count)
             modal = pushes @ modes
-            derivatives.append(-(modal / squares) @ modes.T @ mass)
+            static = -(modal / squares) @ modes.T
+            if not errors.size:
+                errors = self._path_errors(vectors @ followed, vectors @ static.T)
+            derivatives.append(static @ mass)
             cubic.append(third - pairings((modal / squares) @ modal.T, count))
-        return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic), self._height)
+        return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic), self._height, errors)
+
+    def _path_errors(self, lowest: np.ndarray, static: np.ndarray) -> np.ndarray:
+        """Largest radial errors (m) of the tip's path of second order up to PATH_SHARES, by a load on the first mode at rest.
+
+        Full finite elements: the series (Cochelin, as of Rotation) of the displacement in the size a of the load. The path: at
+        their amplitudes q_a of the `lowest` modes, q_a p_a + q_a q_b theta_ab/2, with the `static` derivatives of all pairs
+        beyond these modes. Where the series has not converged the error is the height.
+        """
+        mass, terms, orders = self._matrices.mass(), [], np.arange(1, _PATH_ORDER + 1)
+
+        def next_term(n: int, forces: np.ndarray) -> np.ndarray:
+            load = mass @ lowest[:, 0] if n == 1 else 0.0
+            terms.append(self._matrices.solve_at_rest(load - self._rotation.free(forces)))
+            return self._rotation.whole(terms[-1])
+
+        self._solid.series(self._equilibria[0], _PATH_ORDER, next_term)
+        first, second = mode_pairs(lowest.shape[1])
+        squared = (static - lowest @ (lowest.T @ (mass @ static))) * np.where(first == second, 0.5, 1.0)
+        tip_moves = np.array([self._rotation.whole(field)[self._tip] for field in (*terms, *lowest.T, *squared.T)])
+        x, y = (self._points[self._tip, :2] / np.hypot(*self._points[self._tip, :2].T)[:, None]).T
+        radial, across = (
+            tip_moves[..., 0] * x + tip_moves[..., 1] * y,
+            tip_moves[:_PATH_ORDER, :, 1] * x - tip_moves[:_PATH_ORDER, :, 0] * y,
+        )
+        powers = (np.linspace(-0.3, 0.3, 601)[:, None] * self._height / np.abs(across[0]).max()) ** orders
+        q, path = powers @ np.array(terms) @ (mass @ lowest), powers @ radial[:_PATH_ORDER]
+        error = np.abs(path - np.hstack([q, q[:, first] * q[:, second]]) @ radial[_PATH_ORDER:]).max(axis=1)
+        error[np.abs(powers[:, -1]) * np.abs(across[-1]).max() > _CONVERGED * self._height] = self._height
+        share = np.maximum(np.abs(path), np.abs(powers @ across)).max(axis=1) / self._height
+        return np.array([error.max(where=share <= most, initial=0.0) for most in PATH_SHARES])
 
     @staticmethod
     def _paired(fields: list[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -76,6 +76,10 @@ class CasingOfRun:
         """Angle (rad) of the undeformed contact nodes at a step of a revolution; the rotor turns towards negative theta."""
         return self.tip.theta - 2.0 * np.pi * step / self.grid.steps_per_revolution
 
+    def opening(self, samples: np.ndarray) -> np.ndarray:
+        """Clearance (m) that a run adds up to each sample, from the start on, in their shape."""
+        return self.scene.casing.change_at((samples + 0.5) / self.grid.choice.samples_per_revolution)
+
     @property
     def initial_wear(self) -> np.ndarray:
         """Wear (m) of each ring of the lining where the tip reaches into it before anything vibrates, shape (rings, 1).
@@ -100,5 +104,6 @@ class CasingOfRun:
             radius = self.tip.radius + cosine * normal + sine * meridional
             position = position + cosine * (np.hypot(radius, across) - radius)
             theta = theta + np.arctan2(across, radius)
+        clearance = clearance + self.opening(np.array(max(step - 1, 0) // self.grid.steps_per_sample))
         lobes = self.scene.casing.lobe(theta, np.array(step * self.grid.time_step), self.rise_time)
         return clearance - lobes - position, theta

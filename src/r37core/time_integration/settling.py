@@ -51,13 +51,14 @@ class Ending:
     """End of a run: `revolutions` done, and whether it had `settled` then.
 
     `wear_growth` (m): largest growth of a bar's wear in the last window; `contact_steps`: steps with a contact force in it.
-    NaN where they are not known, as of a rotor.
+    NaN where they are not known, as of a rotor. `friction_power` (W): mean over the statistic; a rotor's largest, over all.
     """
 
     revolutions: int
     settled: bool = False
     wear_growth: float = np.nan
     contact_steps: float = np.nan
+    friction_power: float = np.nan
 
 
 def window_of(revolutions: int) -> int:
@@ -132,8 +133,11 @@ def motion_at_end(
 
 
 def parts_of_run(choice: IntegrationChoice) -> list[int]:
-    """Revolutions of the parts of a run of which the last is a window, and all but the first where it may end after any."""
-    window = window_of(choice.revolutions)
+    """Revolutions of a run's parts: the last is a window, and so are all but the first where it may end after any.
+
+    Else the statistic begins with the second.
+    """
+    window, later = window_of(choice.revolutions), choice.revolutions_in_statistic
     if not choice.until_settled:
-        return [choice.revolutions - window, window]
+        return [part for part in (choice.revolutions - later, later - window, window) if part]
     return [choice.revolutions % window + window, *[window] * (choice.revolutions // window - 1)]

@@ -6,6 +6,7 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
+from r37core.rom.quadratic_terms import PATH_ERROR
 from r37core.stress.operator import StressOperators, operators_at
 
 from . import kept_numbers
@@ -42,8 +43,9 @@ def run_speed(
     the statistic, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end
     of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics,
     `largest_penetration` (m) of the tip's edge into the casing among them. `peak_share_of_height`: the largest of the maxima,
-    also of a diverged run, of a blade with displacements of second order. `clearance` (m), shape (nodes,): where it changes
-    with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
+    also of a diverged run, of a blade with displacements of second order, and its `share_of_height_limit`; limit_numbers.
+    `clearance` (m), shape (nodes,): where it changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading
+    edge's normal and tangential motion.
     `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
     of rotation's shapes. With `stress` operators, by `region`: `max_von_mises_last_revolution` (Pa) in the last revolution,
     `revolution_von_mises` (Pa), shape (regions, revolutions), the largest of each of the last `choice.snapshot_revolutions`,
@@ -112,6 +114,8 @@ def numbers_of_run(
         # as far as a run got that diverged
         reached = numbers["revolution_maxima"]
         numbers["peak_share_of_height"] = np.max(reached, where=np.isfinite(reached), initial=0.0) / model.quadratic.height
+        numbers["share_of_height_limit"] = np.array(model.quadratic.share_within(PATH_ERROR * scene.casing.clearance))
+    numbers |= kept_numbers.limit_numbers(run, totals)
     numbers |= ending_numbers(run, samples)
     if scene.casing.changes_with_speed:
         numbers["clearance"] = np.min([each.casing.clearance for each in run.problems], axis=0)

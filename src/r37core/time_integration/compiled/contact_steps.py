@@ -14,7 +14,7 @@ from r37core.contact.node_sweeps import open_gaps, set_laws, sweep_nodes, wear_b
 from r37core.machine_code.alignment import LANES
 from r37core.machine_code.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
-from .steps import bar_at, friction_response, leave_casing, node_lanes, set_friction_of_listed, wear_bar
+from .steps import bar_at, friction_response, heat, leave_casing, node_lanes, set_friction_of_listed, wear_bar
 
 
 @inlined
@@ -127,6 +127,7 @@ def keep_forces(m, count):
         store(m.force, g, normal)
         store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
         store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
+        heat(m, g, normal)
         pressed = bits_of(normal < 0.0)
         any_pressed |= pressed
         touching = wear_bars(c, g, m.lining) if m.lined != 0 else pressed

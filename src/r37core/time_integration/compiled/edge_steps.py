@@ -61,7 +61,7 @@ def _penetration(m, first, end, pressed, place, lobes):
         position = load(e.position, 0)
         if not PUBLISHED:
             position += _displaced_at_once(m, group, pressed)
-        deepest = np.maximum(deepest, position - load(clearance, group * LANES))
+        deepest = np.maximum(deepest, position - (load(clearance, group * LANES) + m.opening))
     return largest_of_lanes(deepest)
 
 

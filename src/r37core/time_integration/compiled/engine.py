@@ -86,6 +86,7 @@ class Passage:
         engine.put(totals=state.totals, penetration=state.penetration, last_position=state.bar_position)
         if self._grid.choice.second_order:
             engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
+        self._openings = engine.problem.casing.opening(state.samples + np.arange(len(out.samples)))
         addresses = {
             "speed_indices": self._schedule.speed_indices,
             "lasting": self._schedule.samples,
@@ -119,6 +120,7 @@ class Passage:
         call, first = self.engine.record[0]["call"], self._state.samples
         call["first_step"] = (first + self._passed + self.done) * self._grid.steps_per_sample
         call["blocks"] = blocks
+        call["openings"] = address_of(self._openings, NUMBER_BYTES) + self.done * NUMBER_BYTES
         if self.done:
             kept = self._grid.snapshots_after(first + self.done) - self._grid.snapshots_after(first)
             call["samples"] = self._samples_at + self.done * self._out.samples.strides[0]

@@ -71,7 +71,7 @@ def _is_clear(m, place, stride, remaining):
             nearest = np.where(nearest < 1.0, nearest, 1.0)
             if bits_of(towards > 0.0) != (1 << LANES) - 1:
                 return False
-        clearance = load(m.speed.clearance, g)
+        clearance = load(m.speed.clearance, g) + m.opening
         gap = clearance - lobes * nearest - position
         # written so that NaN is not clear
         clear = bits_of(gap > ROUNDING_MARGIN * (np.abs(clearance) + lobes + np.abs(position)))

@@ -197,6 +197,8 @@ CALL = aligned_record(
     _fields("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
     # constants of all speeds; speed and blocks of each segment; motion at its ends, and largest wear by then
     _fields("constants speed_indices lasting ends worn", kind=np.int64),
+    # what each block adds to the clearance (m)
+    _fields("openings", kind=np.int64),
     # number of a speed's constants that are not of modes
     _fields("other_constants", kind=np.int64),
 )
@@ -226,6 +228,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("response", nodes, nodes),
         _fields("force", nodes),
         _fields("friction_force", 2, nodes),
+        _fields("sliding", nodes),  # length (m) that friction acts along in a step
         # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
         # at a sample, and the static modes' part of it; the contact problem
         _fields("flexibility", 3, nodes, nodes),
@@ -251,7 +254,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("block_work block_loss", LANES),
         _fields("follows", kind=np.int64),
         _fields("worn largest_wear"),  # off the lining by this blade (m3); of all bars (m)
-        _fields("limit friction"),
+        _fields("limit friction opening"),  # of the clearance in this block (m)
         # how much of the record is used: vectors of modes and of nodes; numbers
         _fields("vectors", 2, kind=np.int64),
         _fields("pairs number_of_outputs nodes", kind=np.int64),

@@ -11,7 +11,7 @@ import numpy as np
 from numba import types
 
 from r37core.machine_code.alignment import LANES
-from r37core.machine_code.lanes import OPTIONS, bits_of, inlined, load, pointed_at, spread, store, sum_of_lanes
+from r37core.machine_code.lanes import OPTIONS, bits_of, inlined, load, numbers_at, pointed_at, spread, store, sum_of_lanes
 from r37core.machine_code.native import object_code
 from r37core.machine_code.program_constants import specialised
 
@@ -83,9 +83,10 @@ def _measure(addresses, blades, place, lobes):
 
 
 @inlined
-def _begin_block(addresses, blades):
+def _begin_block(addresses, blades, block):
     for b in range(blades):
         m = pointed_at(addresses[b])
+        m.opening = numbers_at(m.call.openings)[block]
         store(m.block_work, 0, 0.0)
         store(m.block_loss, 0, 0.0)
 
@@ -237,7 +238,7 @@ def _integrate(addresses, blades):
             if first.lined != 0:
                 busy |= _any_pressing(addresses, blades)
                 measured = busy
-        _begin_block(addresses, blades)
+        _begin_block(addresses, blades, done)
         position = 0
         while position < steps_per_block:
             if position % COARSE == 0 and first.jumping != 0 and not busy:

@@ -63,6 +63,7 @@ def reduced(m):
             second.pull_left[p] += second.left[p, r] * m.u[second.lane + r]
         energy += 0.25 * second.weight[p] * m.u[second.lane + p] * second.pull_left[p]
     if energy < -second.bound:
+        m.totals.steps_bounded += 1.0
         return second.bound / energy * (second.bound / energy) - 1.0
     return 0.0
 

@@ -110,7 +110,7 @@ def measure_gaps(m, place, lobes):
     any_beyond = 0
     for g in range(0, node_lanes(m), LANES):
         normal = displaced(m, NORMAL, g)
-        gap = load(m.speed.clearance, g) - lobes * load(shape, place * node_lanes(m) + g) - normal
+        gap = load(m.speed.clearance, g) + m.opening - lobes * load(shape, place * node_lanes(m) + g) - normal
         store(m.problem.gap, g, gap)
         beyond = bits_of(gap < 0.0)
         m.beyond[g // LANES] = beyond
@@ -135,7 +135,7 @@ def measure_exact_gaps(m, place, lobes):
             p.multiplier[k], p.answer[k], p.short[k], m.radius[k], casing.cosine, casing.sine
         )
         shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
-        p.gap[k] = m.speed.clearance[k] - lobes * shape - position
+        p.gap[k] = m.speed.clearance[k] + m.opening - lobes * shape - position
         if p.gap[k] < 0.0:
             m.beyond[k // LANES] |= 1 << (k % LANES)
             any_beyond = True
@@ -146,7 +146,9 @@ def measure_exact_gaps(m, place, lobes):
 def set_friction(m, g, tangential, meridional):
     """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
     # a normal force is negative
-    along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional, -m.friction)
+    tangential += load(m.rotation, g)
+    along_tangent, along_meridian = _friction_direction(tangential, meridional, -m.friction)
+    store(m.sliding, g, np.sqrt(tangential * tangential + meridional * meridional))
     store(m.friction_share, (0, g), along_tangent)
     store(m.friction_share, (1, g), along_meridian)
 
@@ -389,6 +391,13 @@ def set_friction_force(m):
         normal = load(m.force, g)
         store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
         store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
+        heat(m, g, normal)
+
+
+@inlined
+def heat(m, g, normal):
+    """Add the work of the friction of `normal` forces on the nodes from g on, against their sliding in this step."""
+    m.totals.friction_heat -= m.friction * sum_of_lanes(normal * load(m.sliding, g))
 
 
 @inlined
