@@ -27,6 +27,9 @@ _INTERVALS = 1.5
 _BY_CHANCE = 0.2
 """Difference of two shares that chance may make: three standard deviations where half of a hundred revolutions are above."""
 
+RESOLVED = 3
+"""Least number of neighbouring speeds alike that show the border of a range, and do not hit it by chance."""
+
 DEVIATIONS = 2.0
 """Standard deviations within which a number is said to lie."""
 
@@ -124,14 +127,18 @@ class Exceedance:
     ) -> float:
         """Standard deviation (rad/s) of `length`, or of another `measure` of the ranges, by chance and distance of the speeds.
 
-        A border may lie anywhere between the two speeds about it. `chance`: whether chance is drawn.
+        A border may lie anywhere between the two speeds about it. Where fewer than RESOLVED speeds on one of its sides are alike,
+        the speeds hit or miss what is narrower than their distance, as throws of a coin. `chance`: whether chance is drawn.
         """
         length = measure or length_of
         drawn = [length(ranges) for ranges in self.ranges_drawn[share]] if self.chance and chance else [0.0]
         above = self.smoothed > share
         borders = np.flatnonzero(above[1:] != above[:-1])
+        # what goes on beyond the first or last speed may be long
+        alike = np.diff(np.concatenate([[-RESOLVED], borders, [len(above) + RESOLVED]]))
+        variance = np.where(np.minimum(alike[:-1], alike[1:]) < RESOLVED, 1.0 / 2.0, 1.0 / 12.0)
         steps = [length([SpeedRange(self.speeds[at], self.speeds[at + 1], truncated=False)]) for at in borders]
-        return float(np.sqrt(np.var(drawn) + np.sum(np.square(steps)) / 12.0))
+        return float(np.sqrt(np.var(drawn) + variance @ np.square(steps)))
 
     def scatter_of_border(self, share: float, of: SpeedRange, *, begins: bool) -> float:
         """How far (rad/s) chance moves the begin, or the end, of a range, in two of three cases.
