@@ -127,7 +127,7 @@ class Exceedance:
     ) -> float:
         """Standard deviation (rad/s) of `length`, or of another `measure` of the ranges, by chance and distance of the speeds.
 
-        A border may lie anywhere between the two speeds about it. Where fewer than RESOLVED speeds on one of its sides are alike,
+        A border may lie anywhere between the two speeds about it. Where fewer than RESOLVED speeds on a side of it are alike,
         the speeds hit or miss what is narrower than their distance, as throws of a coin. `chance`: whether chance is drawn.
         """
         length = measure or length_of
