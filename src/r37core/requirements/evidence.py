@@ -104,7 +104,7 @@ class Evidence:
         return "" if narrow else f"speeds lie up to {self.gap:.3g} rad/s apart, and an interaction may be {WIDTH:g} wide"
 
     def is_open(self, near: np.ndarray, error: float) -> bool:
-        """Whether a run in operation may come nearer to a limit than the nearest does, by more than an `error`.
+        """True if a run in operation may come nearer to a limit than the nearest does, by more than an `error`.
 
         Between speeds, or as its stress drifts on. `near`, shape (speeds,): see judging.nearness.
         """
@@ -181,7 +181,7 @@ def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
     reach = values.astype(float)
     peaks = 1 + np.flatnonzero((values[1:-1] >= np.maximum(values[:-2], values[2:])) & (values[1:-1] > 0.0))
     before, after = speeds[peaks] - speeds[peaks - 1], speeds[peaks + 1] - speeds[peaks]
-    low, top, high = (np.maximum(values[peaks + at], 1e-6) ** -2.0 for at in (-1, 0, 1))
+    low, top, high = (np.maximum(values[peaks + step], 1e-6) ** -2.0 for step in (-1, 0, 1))
     first, second = (top - low) / before, (high - top) / after
     curvature = (second - first) / (before + after)
     slope = first + curvature * before

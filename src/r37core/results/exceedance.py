@@ -137,7 +137,10 @@ class Exceedance:
         # what goes on beyond the first or last speed may be long
         alike = np.diff(np.concatenate([[-RESOLVED], borders, [len(above) + RESOLVED]]))
         variance = np.where(np.minimum(alike[:-1], alike[1:]) < RESOLVED, 1.0 / 2.0, 1.0 / 12.0)
-        steps = [length([SpeedRange(self.speeds[at], self.speeds[at + 1], truncated=False)]) for at in borders]
+        steps = [
+            length([SpeedRange(*ends, truncated=False)])
+            for ends in zip(self.speeds[borders], self.speeds[borders + 1], strict=True)
+        ]
         return float(np.sqrt(np.var(drawn) + variance @ np.square(steps)))
 
     def scatter_of_border(self, share: float, of: SpeedRange, *, begins: bool) -> float:
