@@ -21,12 +21,15 @@ from r37core.requirements.choice import CampbellMargin, Requirements
 from r37core.requirements.evidence import Evidence, extended, worst_of
 from r37core.requirements.judging import (
     AT_LEAST,
+    COARSER_MESH,
     DOWN,
     FAILS,
+    HALF_STEP,
     HIGHEST_DAMPING,
     LESS_FRICTION,
     MEETS,
     NOT_APPLICABLE,
+    NOT_MEASURED,
     REST,
     UNKNOWN,
     UP,
@@ -37,7 +40,7 @@ from r37core.requirements.judging import (
 )
 from r37core.requirements.looks import joined_looks
 from r37core.requirements.plan import Judged, remarks
-from r37core.requirements.table import closing, operating_table, overall, reason, verdict_table
+from r37core.requirements.table import certainty, closing, operating_table, overall, reason, verdict_table
 from r37core.results.datasets import FURTHER_RUNS, overlaid, response_of, with_further_runs
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.results.interactions import summarise
@@ -272,6 +275,41 @@ def test_the_error_of_mesh_and_step_is_part_of_a_verdict():
     looks = {REST: used, LESS_FRICTION: response(used_thickness=everywhere(8.9e-4)).sel(speed=[1150.0])}
     note = note_of_unknown(Requirements(used_lining=0.9), looks=looks, thickness=1e-3, error=0.05)
     assert note.startswith("fails with 1% less friction and 5% more by 3.45 %")
+
+
+def test_the_error_of_mesh_and_step_is_measured_on_the_blade():
+    """By a mesh of half the nodes and half the step, in place of the level's; a level without one tells what fails clearly."""
+    runs = fatigued(at(1150.0, 0.8, 0.2))
+    near = [1145.0, 1150.0, 1155.0]
+    for coarse, fine, expected in ((0.84, 0.8, MEETS), (0.8, 0.76, MEETS), (0.92, 0.8, UNKNOWN), (0.84, 0.62, UNKNOWN)):
+        others = {COARSER_MESH: coarse, HALF_STEP: fine}
+        looks = {REST: runs} | {name: fatigued(at(1150.0, value, 0.2)).sel(speed=near) for name, value in others.items()}
+        found = one(Requirements(goodman_share=1.0), looks=looks, error=np.nan)
+        error = np.hypot(coarse / 0.8 - 1.0, fine / 0.8 - 1.0)
+        assert found["verdict"] == expected and found["value_highest"] >= 0.8 * (1.0 + error)
+    assert NOT_MEASURED in note_of_unknown(Requirements(goodman_share=1.0), runs, error=np.nan)
+    assert verdict(Requirements(goodman_share=0.6), runs, error=np.nan) == FAILS
+    assert note_of_unknown(Requirements(goodman_share=0.75), runs, error=np.nan).startswith("meets with 15% less")
+
+
+def test_what_a_peak_between_speeds_or_a_drift_may_exceed_is_a_lower_bound():
+    limit = Requirements(goodman_share=1.0)
+    sharp, broad = fatigued(at(1150.0, 0.5, 0.2)), fatigued(0.5 - 1e-5 * (SPEEDS - 1150.0) ** 2)
+    assert AT_LEAST in one(limit, sharp)["note"] and one(limit, broad)["note"] == ""
+    assert AT_LEAST in one(limit, broad.assign(stress_drift=("speed", at(1150.0, 0.2, 0.0))))["note"]
+    assert "to at least" in certainty(pd.Series(one(limit, sharp)))
+    # as it drifts on it fails
+    drifting = broad.assign(stress_drift=("speed", at(1150.0, 1.2, 0.0)))
+    assert note_of_unknown(limit, drifting).startswith("fails as it drifts on by 0.1")
+
+
+def test_what_fails_elsewhere_keeps_what_is_far_below_its_limit():
+    limit, why = (
+        Requirements(goodman_share=1.0),
+        {"not_looked": "no further runs, as above_yield fails", "fails_elsewhere": True},
+    )
+    assert verdict(limit, fatigued(everywhere(0.3)), **why) == MEETS
+    assert note_of_unknown(limit, fatigued(everywhere(0.4)), **why).startswith("no further runs, as above_yield fails")
 
 
 def test_a_motion_that_grows_near_the_limit_cannot_tell():

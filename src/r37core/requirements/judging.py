@@ -28,6 +28,7 @@ HALF_STEP, COARSER_MESH = "half the step", "a mesh of half the nodes"
 REPEATED = (MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION, HALF_STEP, COARSER_MESH)
 LOWEST_DAMPING, HIGHEST_DAMPING = "lowest damping", "highest damping"
 FAST_RISE, SLOW_RISE = "lobes that rise ten times as fast", f"lobes that rise over {PUBLISHED_REVOLUTIONS} revolutions"
+_OF_ERROR = (HALF_STEP, COARSER_MESH)
 LARGE_CHANGES = (LOWEST_DAMPING, HIGHEST_DAMPING, FAST_RISE, SLOW_RISE)
 LOOKS = (REST, *LARGE_CHANGES, UP, DOWN, *REPEATED)
 """Further runs of a blade in a scene; see requirements.looks."""
@@ -175,7 +176,9 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
         return row
     others, error = _tried(evidence) | motions, _tried_error(evidence)
     tried = {name: columns_of(other) for name, other in (others | _larger_and_smaller(evidence)).items()}
-    more = {f"{name} and {_percent(error)} more": columns_of(other.scaled(1.0 + error)) for name, other in others.items()}
+    # what has the error already is not raised by it
+    raised = {name: other.scaled(1.0 + error) for name, other in others.items() if not name.endswith(_OF_ERROR)}
+    more = {f"{name} and {_percent(error)} more": columns_of(other) for name, other in raised.items()}
     margins = {name: margin for name, each in tried.items() if not np.isnan(margin := _margin(each, limit))}
     repeated = [row["value"], *(tried[f"with {name}"].get("value", np.nan) for name in REPEATED if f"with {name}" in tried)]
     scatter = float(np.linalg.norm(np.nan_to_num([row["scatter"], np.nanstd(repeated)])))
@@ -286,7 +289,7 @@ def _measured_error(only: Requirements, evidence: Evidence) -> float:
     if COARSER_MESH not in evidence.looks:
         return evidence.error
     changes = []
-    for look in (HALF_STEP, COARSER_MESH):
+    for look in _OF_ERROR:
         other = evidence.looks[look]
         own = evidence.response.sel(speed=other["speed"])
         largest = [float(nearness(only, evidence.replaced(runs)).max(initial=0.0)) for runs in (own, other)]
