@@ -306,10 +306,10 @@ def test_what_a_peak_between_speeds_or_a_drift_may_exceed_is_a_lower_bound():
 def test_what_fails_elsewhere_keeps_what_is_far_below_its_limit():
     limit, why = (
         Requirements(goodman_share=1.0),
-        {"not_looked": "no further runs, as above_yield fails", "fails_elsewhere": True},
+        {"not_looked": "few further runs, as above_yield fails", "fails_elsewhere": True},
     )
     assert verdict(limit, fatigued(everywhere(0.3)), **why) == MEETS
-    assert note_of_unknown(limit, fatigued(everywhere(0.4)), **why).startswith("no further runs, as above_yield fails")
+    assert note_of_unknown(limit, fatigued(everywhere(0.4)), **why).startswith("few further runs, as above_yield fails")
 
 
 def test_a_motion_that_grows_near_the_limit_cannot_tell():

@@ -81,7 +81,7 @@ def verdict_table(
         evidence = Evidence(response, campbell=campbell, operating=operating, looks=looks.get((blade, scene), {}), **more)
         rest = evidence.replaced(evidence.looks[REST]) if REST in evidence.looks else evidence
         failed = fails_clearly(requirements, rest)
-        reason = f"no further runs, as {failed[0]} fails" if failed else not_looked.get(scene, "")
+        reason = f"few further runs, as {failed[0]} fails" if failed else not_looked.get(scene, "")
         evidence = replace(evidence, not_looked=reason, fails_elsewhere=bool(failed))
         rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
     return pd.DataFrame(rows, columns=["blade", "scene", *COLUMNS])
