@@ -207,8 +207,10 @@ class Scene:
 
     @property
     def grown(self) -> Self:
-        """The scene with lobes that are full-grown from the start."""
-        return replace(self, casing=replace(self.casing, rise_fraction=0.0, rise_revolutions=None))
+        """The scene with lobes that are full-grown from the start, and the clearance of its end."""
+        revolutions, change = self.casing.change_revolutions[:1], self.casing.change[-1:]
+        grown = replace(self.casing, rise_fraction=0.0, rise_revolutions=None, change_revolutions=revolutions, change=change)
+        return replace(self, casing=grown)
 
     def rising_over(self, revolutions: float) -> Self:
         """The scene with lobes that grow as in a run of so many `revolutions`, however long a run is."""

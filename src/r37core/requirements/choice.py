@@ -12,6 +12,9 @@ WIDTH = 5.0
 STEP = 0.5 * WIDTH
 """Step (rad/s) between the further runs from rest."""
 
+NEAR = 1.0 / 3.0
+"""Share of a limit from which further runs may come to it."""
+
 LEAST_STEP = 0.2
 """Distance (rad/s) of runs about a peak between which nothing is run."""
 

@@ -13,7 +13,7 @@ from r37core.results.operating_range import OperatingRange
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
-from .choice import LEAST_STEP, WIDTH
+from .choice import LEAST_STEP, NEAR, WIDTH
 
 JUDGED = (
     "status",
@@ -103,15 +103,15 @@ class Evidence:
         narrow = self.gap <= WIDTH * (1.0 + _ROUNDING) or not self.touches
         return "" if narrow else f"speeds lie up to {self.gap:.3g} rad/s apart, and an interaction may be {WIDTH:g} wide"
 
-    def is_open(self, near: np.ndarray, error: float) -> bool:
-        """True if a run in operation may come nearer to a limit than the nearest does, by more than an `error`.
+    def reach(self, near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """How near each run in operation comes to a limit, and how near it may: between speeds, or as its stress drifts on.
 
-        Between speeds, or as its stress drifts on. `near`, shape (speeds,): see judging.nearness.
+        What stays below NEAR is not looked at closer. `near`, shape (speeds,): see judging.nearness.
         """
-        speeds, drift = self.response["speed"].values, self.response.get("stress_drift", xr.DataArray(0.0))
-        inside = np.where(self.operates & np.isfinite(near), near, 0.0)
-        highest = max(peak_reach(speeds, inside).max(), (inside * (1.0 + drift.fillna(0.0).values)).max())
-        return bool(highest > (1.0 + error) * inside.max())
+        reach = np.where(near >= NEAR, peak_reach(self.response["speed"].values, near), near)
+        if "stress_drift" in self.response:
+            reach = np.maximum(reach, near * (1.0 + np.nan_to_num(self.response["stress_drift"].values)))
+        return near[self.operates], reach[self.operates]
 
     @property
     def operates(self) -> np.ndarray:
@@ -175,9 +175,12 @@ class Evidence:
 def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
     """How high each peak of positive `values` may be between ascending `speeds`, shape (speeds,); elsewhere the values.
 
-    By the parabola of 1/value^2 through three speeds, which is that of a resonance, infinite where its top is below 0. Where
-    the speeds stand closer than LEAST_STEP the lower of the two steps up to the peak goes on.
+    By the parabola of 1/value^2 through three speeds, which is that of a resonance; infinite where its top is below 0, or less
+    than half of the peak is left on both sides. Where the speeds stand closer than LEAST_STEP the lower of the two steps up to
+    the peak goes on.
     """
+    # of a run that diverged
+    values = np.minimum(values, 1e6)
     reach = values.astype(float)
     peaks = 1 + np.flatnonzero((values[1:-1] >= np.maximum(values[:-2], values[2:])) & (values[1:-1] > 0.0))
     before, after = speeds[peaks] - speeds[peaks - 1], speeds[peaks + 1] - speeds[peaks]
@@ -186,8 +189,10 @@ def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
     curvature = (second - first) / (before + after)
     slope = first + curvature * before
     least = top - np.divide(slope**2, 4.0 * curvature, out=np.zeros(len(peaks)), where=curvature > 0.0)
-    resonance = np.where(least > 0.0, np.maximum(least, 1e-12) ** -0.5, np.inf)
-    stepped = 2.0 * values[peaks] - np.maximum(values[peaks - 1], values[peaks + 1])
+    beside = np.maximum(values[peaks - 1], values[peaks + 1])
+    is_shown = (least > 0.0) & (beside >= 0.5 * values[peaks])
+    resonance = np.where(is_shown, np.maximum(least, 1e-12) ** -0.5, np.inf)
+    stepped = 2.0 * values[peaks] - beside
     reach[peaks] = np.where(np.maximum(before, after) > LEAST_STEP, resonance, stepped)
     return reach
 
@@ -195,7 +200,11 @@ def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
 def beyond_model(evidence: Evidence) -> list[str]:
     """Reasons why runs in operation, and further ones, are beyond the model's limits."""
     parts = [evidence.response.isel(speed=np.flatnonzero(evidence.operates)), *evidence.looks.values()]
-    return list(dict.fromkeys(reason for part in parts for reason in reasons_beyond_limits(part)))
+    runs = {
+        name: np.concatenate([np.broadcast_to(part.get(name, np.nan), part.sizes["speed"]) for part in parts])
+        for name in OF_LIMITS
+    }
+    return reasons_beyond_limits(runs)
 
 
 def operated_alone(evidence: Evidence) -> Evidence:

@@ -17,7 +17,7 @@ from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
-from .choice import Requirements
+from .choice import NEAR, STEP, Requirements
 from .evidence import Evidence, beyond_model, extended, lacking, operated_alone, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
@@ -35,14 +35,14 @@ LOOKS = (REST, *LARGE_CHANGES, UP, DOWN, *REPEATED)
 
 _OTHER_MOTIONS = (UP, DOWN)
 
-NEAR = 1.0 / 3.0
-"""Share of a limit from which further runs may come to it."""
-
 GROWS = 0.5
 """Share of a limit from which a motion that still grows may come to it."""
 
 AT_LEAST = "the highest value is a lower bound"
 """Note on a highest value that finer speeds or longer runs may exceed."""
+
+BETWEEN = "a peak between speeds, or one that drifts on, may come beyond the limit"
+"""Note on a peak that finer speeds have not resolved."""
 
 NOT_MEASURED = "the level's error was not measured: snakemake tradeoff measures it, fidelity.yaml has it as measured.error"
 """Note on runs of a level without a measured error: they meet no limit where the tip touches."""
@@ -178,23 +178,30 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     tried = {name: columns_of(other) for name, other in (others | _larger_and_smaller(evidence)).items()}
     # what has the error already is not raised by it
     raised = {name: other.scaled(1.0 + error) for name, other in others.items() if not name.endswith(_OF_ERROR)}
-    more = {f"{name} and {_percent(error)} more": columns_of(other) for name, other in raised.items()}
+    combined = {f"{name} and {_percent(error)} more": columns_of(other) for name, other in raised.items()}
     margins = {name: margin for name, each in tried.items() if not np.isnan(margin := _margin(each, limit))}
     repeated = [row["value"], *(tried[f"with {name}"].get("value", np.nan) for name in REPEATED if f"with {name}" in tried)]
     scatter = float(np.linalg.norm(np.nan_to_num([row["scatter"], np.nanstd(repeated)])))
     lowest, highest = row["value"] - DEVIATIONS * scatter, row["value"] + DEVIATIONS * scatter
+    # nothing says how a largest value scatters that was found once
+    scatter = scatter if len(repeated) > 1 or np.isfinite(row["scatter"]) else np.nan
     if requirement == "above_yield" and is_lined(evidence.response) and row["value"] > 0.0:
         # wherever its borders lie, a speed above yield is one
         lowest = max(lowest, 1e-9)
     if scatter > 0.0:
         margins |= {"by chance": limit - (highest if row["verdict"] == MEETS else lowest)}
-    values = [value for each in (*tried.values(), *more.values()) if np.isfinite(value := each.get("value", np.nan))]
-    row |= {"scatter": scatter, "value_lowest": max(min([lowest, *values]), 0.0), "value_highest": max([highest, *values])}
+    values = [value for each in (*tried.values(), *combined.values()) if np.isfinite(value := each.get("value", np.nan))]
+    most = evidence.operating.last - evidence.operating.first if requirement == "above_yield" else np.inf
+    row |= {"value_lowest": max(min([lowest, *values]), 0.0), "value_highest": min(max([highest, *values]), most)}
+    row["scatter"] = scatter
     row["margin_worst_motion"] = min((min(margins[name], row["margin"]) for name in motions if name in margins), default=np.nan)
-    near = nearness(only, evidence)
+    known, reach = evidence.reach(nearness(only, evidence))
+    beyond = bool(np.any((reach >= 1.0) & (known < 1.0)))
     # a speed above yield counts in full already
-    reaching = np.where(near < 1.0, near, 0.0) if requirement == "above_yield" else near
-    notes = [row["note"], evidence.is_open(reaching, error) and AT_LEAST]
+    more = beyond if requirement == "above_yield" else reach.max(initial=0.0) > (1.0 + error) * known.max(initial=0.0)
+    # of what fails clearly nothing more was run
+    coarse = row["verdict"] == FAILS and REST not in evidence.looks and evidence.gap > STEP
+    notes = [row["note"], AT_LEAST if more or coarse else ""]
     if row["verdict"] == FAILS:
         # another motion that keeps the limit takes nothing from one that does not
         kept = [name for name, margin in margins.items() if margin >= 0.0 and name not in motions]
@@ -202,10 +209,10 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
         notes += [_how_much(only, evidence), *beyond_model(evidence)]
     else:
         growing = next(filter(None, (_growing(only, name, other) for name, other in ({"": evidence} | others).items())), "")
-        combined = {
-            name: _margin(each, limit) for name, each in more.items() if margins.get(name.split(" and ")[0], 0.0) >= 0.0
+        margins |= {
+            name: _margin(each, limit) for name, each in combined.items() if margins.get(name.split(" and ")[0], 0.0) >= 0.0
         }
-        doubts = [*_failed(margins | combined, unit), *filter(None, [evidence.too_coarse, growing])]
+        doubts = [*_failed(margins, unit), *filter(None, [evidence.too_coarse, growing, BETWEEN if beyond else ""])]
         doubts += _left_out(only, evidence, row["note"])
     row["note"] = "; ".join(dict.fromkeys([*doubts, *filter(None, notes)]))
     if doubts:
@@ -283,17 +290,19 @@ def _larger_and_smaller(evidence: Evidence) -> dict[str, Evidence]:
 def _measured_error(only: Requirements, evidence: Evidence) -> float:
     """Relative error of mesh and step of this blade and one limit, or that of its level where no coarser mesh was run.
 
-    By the largest values at the speeds that were run both ways: a coarser mesh differs from the own one at least as much as
-    that from an exact one, and so does half the step.
+    By the largest values at the speeds that ended both ways: a coarser mesh differs from the own one at least as much as that
+    from an exact one, and so does half the step.
     """
-    if COARSER_MESH not in evidence.looks:
-        return evidence.error
     changes = []
     for look in _OF_ERROR:
+        if look not in evidence.looks:
+            return evidence.error
         other = evidence.looks[look]
-        own = evidence.response.sel(speed=other["speed"])
-        largest = [float(nearness(only, evidence.replaced(runs)).max(initial=0.0)) for runs in (own, other)]
-        changes.append(abs(largest[1] / largest[0] - 1.0) if 0.0 < largest[0] < np.inf else 0.0)
+        both = [nearness(only, evidence.replaced(runs)) for runs in (evidence.response.sel(speed=other["speed"]), other)]
+        own, changed = np.max(both, axis=1, where=np.isfinite(both).all(axis=0), initial=0.0)
+        if not np.isfinite(both).all(axis=0).any():
+            return evidence.error
+        changes.append(abs(changed / own - 1.0) if own > 0.0 else 0.0)
     return float(np.linalg.norm(changes))
 
 

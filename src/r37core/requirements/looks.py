@@ -32,7 +32,7 @@ from r37core.time_integration.simulate import TIP_POINTS, Simulation
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import numbers_of_run
 
-from .choice import CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, STEP, Requirements
+from .choice import CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements
 from .evidence import OF_ALL, Evidence, peak_reach
 from .judging import (
     CLEARLY,
@@ -44,7 +44,6 @@ from .judging import (
     LESS_FRICTION,
     LOWEST_DAMPING,
     MORE_FRICTION,
-    NEAR,
     REST,
     SLIGHTLY_MORE_FRICTION,
     SLOW_RISE,
@@ -189,7 +188,7 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
 def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
     """LARGE_CHANGES, at the speeds in operation where `runs` fail and up to MOST_NEAR in all, those nearest to a limit.
 
-    What still fails at the worst speed is run at no other.
+    What still fails at the worst speed is run at no other, but for a limit of a length.
     """
     near, scene = nearness(requirements, runs)[runs.operates], blade.rising_scene
     count = max(_speeds_near(near), int(np.count_nonzero(near >= 1.0)))
@@ -202,7 +201,7 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
         if changed != scene and speeds:
             worst = blade.runs_from_rest(speeds[:1], changed)
             fails = near.max() >= 1.0 and nearness(requirements, runs.replaced(worst)).max() >= 1.0
-            yield look, worst if fails else blade.runs_from_rest(speeds, changed)
+            yield look, worst if fails and not requirements.above_yield else blade.runs_from_rest(speeds, changed)
 
 
 def _speeds_near(near: np.ndarray) -> int:
@@ -233,9 +232,10 @@ def _closer(speeds: Sequence[float], step: float) -> list[float]:
 
 def _speeds_about_peaks(speeds: np.ndarray, near: np.ndarray, error: float) -> list[float]:
     """Middles of the intervals beside peaks from NEAR of a limit on that may be higher than known by more than an `error`."""
-    reach = peak_reach(speeds, np.where(near < 1.0, near, 0.0))
-    peaks = np.flatnonzero((reach >= NEAR) & (near < 1.0) & (reach > (1.0 + error) * near))
+    reach, is_wide = peak_reach(speeds, near), np.diff(speeds) > LEAST_STEP
+    can_be_closer = np.append(is_wide, False) | np.append(False, is_wide)
+    peaks = np.flatnonzero((reach >= NEAR) & (near < 1.0) & (reach > (1.0 + error) * near) & can_be_closer)
     highest = peaks[np.argsort(-near[peaks], kind="stable")[:_MOST_PEAKS]]
     beside = np.unique([*(highest - 1), *highest]).astype(int)
-    wide = beside[np.diff(speeds)[beside] > LEAST_STEP]
+    wide = beside[is_wide[beside]]
     return (0.5 * (speeds[wide] + speeds[wide + 1])).tolist()

@@ -21,7 +21,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.results.datasets import FURTHER_RUNS
 from r37core.results.spectral_lines import modes_of
 from r37core.rom.naming import mode_names
-from r37core.trials.case import MODEL_FILES, ModelChoice
+from r37core.trials.case import MODEL_FILES, ModelChoice, tip_elements
 
 from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
 
@@ -76,6 +76,8 @@ class Judged:
         if settings.structure.coriolis:
             return dict.fromkeys(settings.scenes, "no further runs with Coriolis forces")
         reasons = {name: "no further runs of a rotor" for name, chosen in settings.scenes.items() if chosen.scene.rotor}
+        changing = "the clearance changes within a run, of which the later revolutions alone are judged"
+        reasons |= {name: changing for name, chosen in settings.scenes.items() if chosen.scene.casing.change}
         operating = operating_range(settings)
         if operating is None:
             return reasons
@@ -106,7 +108,9 @@ class Judged:
         if not settings.blades[blade].has_profiles or not own_line:
             return {}
         mesh, modes = settings.fidelity.mesh, settings.fidelity.reduction.fixed_interface_modes
-        model = ModelChoice(mesh.nodes // 2, contact_nodes(settings, blade, mesh.tip_elements), modes, "submesh")
+        nodes = mesh.nodes // 2
+        contact = min(contact_nodes(settings, blade, count) for count in (mesh.tip_elements, tip_elements(nodes)))
+        model = ModelChoice(nodes, contact, modes, "submesh")
         return {f"coarser_{kind}": paths.fill(MODEL_FILES[kind], blade=blade, model=model.name) for kind in ("contact", "rom")}
 
     def looks(self, made: Provenance) -> Stage:

@@ -212,7 +212,8 @@ _MOST_LINES = 8
 def closing(results: Path) -> str:
     """The verdict of each blade and scene; of many how many meet all, and which; without a verdict what lies in operation."""
     # the verdict of a run before the last one says nothing of it
-    requirements = read_json(results / "configuration.json")["config"].get("requirements", {})
+    file = results / "configuration.json"
+    requirements = read_json(file)["config"].get("requirements", {}) if file.exists() else {"verdict": "asked for alone"}
     if all(value in (None, []) for value in requirements.values()):
         return counted(len(read_table(results / "operating.csv")), "line") + " on what lies in operation"
     table = read_table(results / "verdict.csv")

@@ -99,10 +99,21 @@ class Exceedance:
         """Integral of the shares over speed (rad/s): without threshold and smoothing, it scatters less than lengths do."""
         return float(np.trapezoid(self.shares, self.speeds))
 
-    @property
-    def scatter_of_integral(self) -> float:
-        """Standard deviation of `integral` (rad/s) by chance; NaN where there is none."""
-        return float(np.std(np.trapezoid(self.drawn, self.speeds))) if self.chance else np.nan
+    def scatter_of_integral(self, measure: Callable[[np.ndarray], float] | None = None) -> float:
+        """Standard deviation of `integral` (rad/s), or of another `measure` of shares; NaN where there is no chance.
+
+        By chance and distance of the speeds: a share changes anywhere between two of them; where it turns back at once, what is
+        narrower than their distance is hit or missed.
+        """
+        if not self.chance:
+            return np.nan
+        integral = measure or (lambda shares: float(np.trapezoid(shares, self.speeds)))
+        changes = np.diff(self.shares)
+        turns = np.append(changes[1:] * changes[:-1] < 0.0, False)
+        variance = np.where(turns | np.append(False, turns[:-1]), 1.0 / 2.0, 1.0 / 12.0)
+        steps = [integral((np.arange(len(self.shares)) == at).astype(float)) for at in range(len(self.shares))]
+        grid = variance @ np.square(changes * np.minimum(steps[1:], steps[:-1]))
+        return float(np.sqrt(np.var([integral(shares) for shares in self.drawn]) + grid))
 
     @cached_property
     def drawn(self) -> np.ndarray:

@@ -55,8 +55,9 @@ def operating_measures(
     measures["length_most_revolutions_operating_within_rad_s"] = _known_within(exceedance, scatter, moved)
     measures["exceedance_integral_operating_rad_s"] = operating.integral(exceedance.speeds, exceedance.shares)
     if exceedance.chance and chance_scatter:
-        drawn = [operating.integral(exceedance.speeds, shares) for shares in exceedance.drawn]
-        measures["exceedance_integral_operating_scatter_rad_s"] = float(np.std(drawn))
+        measures["exceedance_integral_operating_scatter_rad_s"] = exceedance.scatter_of_integral(
+            lambda shares: operating.integral(exceedance.speeds, shares)
+        )
     if has_strengths(response):
         fatigue = exceedance_of(response, "share_of_revolutions_above_goodman")
         measures["goodman_integral_operating_rad_s"] = operating.integral(fatigue.speeds, fatigue.shares)
@@ -95,7 +96,7 @@ def robustness(
             measures[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
         measures["exceedance_integral_rad_s"] = exceedance.integral
         if chance_scatter:
-            measures["exceedance_integral_scatter_rad_s"] = exceedance.scatter_of_integral
+            measures["exceedance_integral_scatter_rad_s"] = exceedance.scatter_of_integral()
         if "motion_at_end" in response:
             shares = response["share_of_revolutions_above_yield"].where(lasts(response), 0.0)
             lasting = exceedance_of(response.assign(share_of_revolutions_above_yield=shares))

@@ -45,6 +45,10 @@ def named_by_lines(response: xr.Dataset, campbell: xr.Dataset, choice: Interacti
     lobes = int(response.get("casing_lobes", 0))
     if not lobes or "amplitude" not in response:
         return {}
+    # spectra of several lengths are joined on the orders of all
+    response = response.isel(engine_order=np.flatnonzero(np.isfinite(response["amplitude"].values)))
+    if response.sizes["engine_order"] < 2:
+        return {}
     per_order = round(1.0 / float(np.diff(response["engine_order"].values[:2])[0]))
     lines = _lines_at_modes(response, campbell, per_order, lobes, choice)
     if not lines or lines[0][0] < STRONGEST:

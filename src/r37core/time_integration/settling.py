@@ -102,7 +102,7 @@ def remaining_drift(values: np.ndarray, window: int) -> float:
     if abs(means[-1] - means[0]) <= SCATTERS * values[-window:].std() or (earlier and earlier[0] * step <= 0.0):
         return 0.0
     ratio = min(step / earlier[0], 1.0) if earlier else 1.0
-    return float(step * np.sum(ratio ** np.arange(1, WINDOWS_AHEAD + 1)) / means[-1])
+    return max(float(step * np.sum(ratio ** np.arange(1, WINDOWS_AHEAD + 1)) / means[-1]), -1.0)
 
 
 def motion_at_end(

@@ -1,5 +1,6 @@
 """A case: what one job runs, as plain data. Light: the workflow imports it."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import astuple, dataclass
 from typing import Self
@@ -16,6 +17,11 @@ LEVEL = "level"
 
 OWN_MESH = 0
 """Number of nodes that stands for the mesh of the run, as for a blade of another program."""
+
+
+def tip_elements(nodes: int) -> int:
+    """Elements along the tip of a mesh of so many nodes: a multiple of 7, for 8 evenly spaced boundary nodes."""
+    return 7 * max(1, round(0.04 * math.sqrt(nodes)))
 
 
 @dataclass(frozen=True)

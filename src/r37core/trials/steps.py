@@ -28,7 +28,7 @@ from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37core.stress.recovery import stress_operators
 from r37core.sweep.parts import Parts
 
-from .case import Case
+from .case import Case, tip_elements
 from .case_table import refusal
 from .runner import peak_memory, run_case, timed
 
@@ -50,9 +50,7 @@ def model(input: Any, output: Any, params: Any) -> None:
             mesh = read_vtu(input.mesh)
         else:
             nodes = choice["nodes"]
-            # as in fidelity.yaml: a multiple of 7, for 8 evenly spaced boundary nodes
-            tip_elements = 7 * max(1, round(0.04 * np.sqrt(nodes)))
-            mesh = generate_mesh(read_geometry(input.geometry), nodes, layers=1, tip_elements=tip_elements)
+            mesh = generate_mesh(read_geometry(input.geometry), nodes, layers=1, tip_elements=tip_elements(nodes))
         return reduce_blade(mesh, assemble(mesh, material), material, boundary, reduction, regions)
 
     try:
