@@ -111,7 +111,7 @@ class Exceedance:
         changes = np.diff(self.shares)
         turns = np.append(changes[1:] * changes[:-1] < 0.0, False)
         variance = np.where(turns | np.append(False, turns[:-1]), 1.0 / 2.0, 1.0 / 12.0)
-        steps = [integral((np.arange(len(self.shares)) == at).astype(float)) for at in range(len(self.shares))]
+        steps = [integral(unit) for unit in np.eye(len(self.shares))]
         grid = variance @ np.square(changes * np.minimum(steps[1:], steps[:-1]))
         return float(np.sqrt(np.var([integral(shares) for shares in self.drawn]) + grid))
 
