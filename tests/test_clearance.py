@@ -85,6 +85,10 @@ def test_the_gap_follows_the_table_in_both_engines():
         # a block that begins without contact measures its gaps anew
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
     np.testing.assert_allclose(casing.change_at(np.array([0.5, 1.0, 1.75, 9.0])), [5e-5, 1e-4, 4e-5, -2e-5])
+    # a motion that is carried on has the clearance that it ended in
+    grown = replace(DIRECT, casing=casing).grown.casing
+    np.testing.assert_allclose(grown.change_at(np.array([0.0, 1.0, 9.0])), -2e-5)
+    assert DIRECT.grown.casing.change == ()
 
 
 @pytest.mark.parametrize(

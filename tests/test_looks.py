@@ -174,6 +174,18 @@ def test_large_changes_are_tried_where_runs_fail_or_nearly_do(lined, monkeypatch
     assert all(found[name]["speed"].values.tolist() == [1300.0, 1302.5] for name in LARGE_CHANGES)
 
 
+def test_a_length_that_fails_is_tried_at_all_speeds(lined, monkeypatch):
+    """A speed that stays above yield says nothing of the length."""
+    monkeypatch.setattr(further_runs, "nearness", lambda _, of: np.full(len(of.speeds), 1.2))
+    monkeypatch.setattr(further_runs, "fails_clearly", lambda *_: ["above_yield"])
+    needs = {length: Requirements(above_yield=length) for length in (0.0, 15.0)}
+    found = {length: dict(looks_of(lined, need, evidence())) for length, need in needs.items()}
+    assert {length: runs[FAST_RISE].sizes["speed"] for length, runs in found.items()} == {0.0: 1, 15.0: 1}
+    more = evidence(speeds=(1290.0, 1302.0, 1305.0, 1308.0, 1320.0))
+    found = {length: dict(looks_of(lined, need, more)) for length, need in needs.items()}
+    assert {length: runs[FAST_RISE].sizes["speed"] for length, runs in found.items()} == {0.0: 1, 15.0: 3}
+
+
 def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
     monkeypatch.setattr(further_runs, "_large_changes", lambda *_: iter(()))
     assert dict(looks_of(lined, NEEDS, evidence(used=4e-3))) == {}
@@ -201,6 +213,10 @@ def test_runs_stand_closer_about_a_peak_below_the_limit():
     # a peak between two like speeds, and a top that is known to 3%
     assert refined(speeds, np.array([0.2, 0.6, 0.61, 0.2])) == [1003.75, 1006.25]
     assert refined(speeds, 0.6 - 1e-3 * (speeds - 1003.0) ** 2) == []
+    # peaks that are known as well as can be take no place of others
+    known = np.concatenate([1100.0 + 10.0 * count + np.array([-0.1, 0.0, 0.1]) for count in range(12)])
+    both = np.append(speeds, known), np.append([0.2, 0.6, 0.61, 0.2], np.tile([0.3, 0.9, 0.3], 12))
+    assert {1003.75, 1006.25} <= set(refined(*both))
     # the end of a branch
     assert refined(speeds, np.array([0.4, 0.5, 0.6, 0.1])) == [1003.75, 1006.25]
 

@@ -33,6 +33,7 @@ from r37core.requirements.judging import (
     REST,
     UNKNOWN,
     UP,
+    _measured_error,
     closeness,
     fails_clearly,
     judge,
@@ -287,6 +288,13 @@ def test_the_error_of_mesh_and_step_is_measured_on_the_blade():
         found = one(Requirements(goodman_share=1.0), looks=looks, error=np.nan)
         error = np.hypot(coarse / 0.8 - 1.0, fine / 0.8 - 1.0)
         assert found["verdict"] == expected and found["value_highest"] >= 0.8 * (1.0 + error)
+    # of speeds that ended both ways; where none did the level's counts
+    coarse = fatigued(at(1150.0, 0.84, beside)).sel(speed=near)
+    for diverged, error in (([1145.0], 0.05), (near, np.nan)):
+        gone = coarse.assign(status=("speed", np.where(np.isin(near, diverged), RunStatus.DIVERGED, 0)))
+        looks = {REST: runs, COARSER_MESH: gone, HALF_STEP: runs.sel(speed=near)}
+        evidence = Evidence(runs, operating=FLOWN, looks=looks, error=np.nan)
+        np.testing.assert_allclose(_measured_error(Requirements(goodman_share=1.0), evidence), error)
     assert NOT_MEASURED in note_of_unknown(Requirements(goodman_share=1.0), runs, error=np.nan)
     assert verdict(Requirements(goodman_share=0.6), runs, error=np.nan) == FAILS
     assert note_of_unknown(Requirements(goodman_share=0.75), runs, error=np.nan).startswith("meets with 15% less")

@@ -56,6 +56,17 @@ def test_a_whole_order_at_a_mode_is_named_and_others_are_not():
     assert named(535.0, {2.0: 1e-3}, lobes=0) is None
 
 
+def test_a_spectrum_joined_with_finer_ones_has_its_own_orders():
+    def joined(tones, own):
+        spectrum = at(535.0, tones)
+        amplitudes = {name: spectrum[name].where(own) for name in ("amplitude", "amplitude_tangential")}
+        return named_by_lines(spectrum.assign(amplitudes), campbell(), CHOICE)
+
+    every_other = xr.DataArray(np.isin(ORDERS, ORDERS[::2]), dims="engine_order")
+    assert joined({2.0: 1e-3, 4.0: 6e-4, 6.0: 3e-4}, every_other)["mode"] == "1B"
+    assert joined({}, every_other) == joined({}, every_other & False) == {}
+
+
 @pytest.mark.parametrize("apart", [6, 5.5, 5, 6.5])
 def test_two_tones_a_multiple_of_the_lobes_apart_are_a_difference(apart):
     """Modes 5 and 7, 1073 and 1537 Hz, at orders a and a + 6; at no other distance, where their sum is off, too."""
