@@ -34,6 +34,9 @@ JUDGED = (
 OF_ALL = ("lined", "yield_stress", "static_stress", "fatigue_strength")
 """Variables that are the same at all speeds."""
 
+SHOWN = 0.9
+"""Share of a peak that speeds beside it have at least where they show how high it is."""
+
 _ROUNDING = 1e-6
 
 
@@ -175,8 +178,8 @@ class Evidence:
 def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
     """How high each peak of positive `values` may be between ascending `speeds`, shape (speeds,); elsewhere the values.
 
-    By the parabola of 1/value^2 through three speeds, which is that of a resonance; infinite where its top is below 0, or less
-    than half of the peak is left on both sides. Where the speeds stand closer than LEAST_STEP the lower of the two steps up to
+    By the parabola of 1/value^2 through three speeds, which is that of a resonance; infinite where its top is below 0, or the
+    peak falls below SHOWN on both sides: not every peak is a resonance. Where the speeds stand closer than LEAST_STEP the lower of the two steps up to
     the peak goes on.
     """
     # of a run that diverged
@@ -190,7 +193,7 @@ def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
     slope = first + curvature * before
     least = top - np.divide(slope**2, 4.0 * curvature, out=np.zeros(len(peaks)), where=curvature > 0.0)
     beside = np.maximum(values[peaks - 1], values[peaks + 1])
-    is_shown = (least > 0.0) & (beside >= 0.5 * values[peaks])
+    is_shown = (least > 0.0) & (beside >= SHOWN * values[peaks])
     resonance = np.where(is_shown, np.maximum(least, 1e-12) ** -0.5, np.inf)
     stepped = 2.0 * values[peaks] - beside
     reach[peaks] = np.where(np.maximum(before, after) > LEAST_STEP, resonance, stepped)
