@@ -146,6 +146,7 @@ def test_a_key_reaches_its_field_only(path):
 def test_every_field_has_a_key_and_by_default_the_tip_decides_the_cone_angle():
     """Those of a clearance that changes with the speed: see test_clearance; of an elastic casing: test_elastic_casing."""
     elsewhere = {"casing.centrifugal", "casing.growth_speeds", "casing.growth", "casing.ring", "casing.ring_radius"}
+    elsewhere |= {"casing.change", "casing.change_revolutions"}
     # of the blades of a rotor
     elsewhere |= {"rotor", "casing.longer"}
     assert {field for _, field, _ in REACHES.values()} | elsewhere == set(flat(checked_scene(ENTRY)))

@@ -25,13 +25,14 @@ from r37core.base.plain import from_plain, to_plain
 from r37core.config import ConfigError, command_line_document, read_document
 from r37core.config.fidelity import recommended_level
 from r37core.plans.extent import extent_of, extents
+from r37core.plans.other_models import MODEL_NAME, OWN_MESH, ModelChoice
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings, simulations_of_members
 from r37core.rom.contact_model import read_contact_model
 from r37core.sweep.parts import Parts
 from r37core.trials import estimate, estimate_tables, runner, stability, stability_tables, steps, tradeoff
-from r37core.trials.case import HALF_STEP, MODEL_NAME, OWN_MESH, Case, ModelChoice
+from r37core.trials.case import HALF_STEP, Case
 from r37core.trials.figures import COLOURS, draw_growth, draw_parameter, draw_stability, draw_tradeoff
 from r37core.trials.plan import Trials
 from r37core.trials.tradeoff_tables import QUANTITIES, exponent_of, gather_cases, growth_table, level_table, parameter_table

@@ -1,6 +1,6 @@
 # Single runs next to the sweep, and their tables. Not part of all_blades: snakemake tradeoff, stability or estimate
 from r37core.product.extensions import simulations_of_members
-from r37core.trials.case import MODEL_FILES, MODEL_NAME
+from r37core.plans.other_models import MODEL_FILES, MODEL_NAME
 from r37core.trials.plan import PRESETS, RESPONSE, Trials
 
 trials = Trials(settings)

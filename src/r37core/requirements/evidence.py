@@ -10,7 +10,6 @@ import xarray as xr
 from r37core.results.datasets import overlaid
 from r37core.results.limits import OF_LIMITS, reasons_beyond_limits
 from r37core.results.operating_range import OperatingRange
-from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import LEAST_STEP, NEAR, WIDTH
@@ -106,29 +105,11 @@ class Evidence:
         narrow = self.gap <= WIDTH * (1.0 + _ROUNDING) or not self.touches
         return "" if narrow else f"speeds lie up to {self.gap:.3g} rad/s apart, and an interaction may be {WIDTH:g} wide"
 
-    def reach(self, near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """How near each run in operation comes to a limit, and how near it may: between speeds, or as its stress drifts on.
-
-        What stays below NEAR is not looked at closer. `near`, shape (speeds,): see judging.nearness.
-        """
-        reach = np.where(near >= NEAR, peak_reach(self.response["speed"].values, near), near)
-        if "stress_drift" in self.response:
-            reach = np.maximum(reach, near * (1.0 + np.nan_to_num(self.response["stress_drift"].values)))
-        return near[self.operates], reach[self.operates]
-
     @property
     def operates(self) -> np.ndarray:
         """Runs in the operating range: true or false, shape (speeds,)."""
         speeds = self.response["speed"].values
         return (speeds >= self.operating.first) & (speeds <= self.operating.last)
-
-    def growing(self, near: np.ndarray) -> str:
-        """Where a motion still grows as its run ends, of runs `near` a limit, shape (speeds,); empty where none does."""
-        if "motion_at_end" not in self.response:
-            return ""
-        grows = near & (self.response["motion_at_end"].values == MotionAtEnd.GROWING)
-        speeds = self.response["speed"].values[grows & self.operates]
-        return f"the motion still grows as the run ends, at {speeds[0]:.5g} rad/s" if len(speeds) else ""
 
     @property
     def divergence(self) -> str:
@@ -175,12 +156,24 @@ class Evidence:
         return self.replaced(runs.assign(changed))
 
 
+def reach(evidence: Evidence, near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """How near each run in operation comes to a limit, and how near it may: between speeds, or as its stress drifts on.
+
+    What stays below NEAR is not looked at closer. `near`, shape (speeds,): see judging.nearness.
+    """
+    runs = evidence.response
+    may_be = np.where(near >= NEAR, peak_reach(runs["speed"].values, near), near)
+    if "stress_drift" in runs:
+        may_be = np.maximum(may_be, near * (1.0 + np.nan_to_num(runs["stress_drift"].values)))
+    return near[evidence.operates], may_be[evidence.operates]
+
+
 def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
     """How high each peak of positive `values` may be between ascending `speeds`, shape (speeds,); elsewhere the values.
 
     By the parabola of 1/value^2 through three speeds, which is that of a resonance; infinite where its top is below 0, or the
-    peak falls below SHOWN on both sides: not every peak is a resonance. Where the speeds stand closer than LEAST_STEP the lower of the two steps up to
-    the peak goes on.
+    peak falls below SHOWN on both sides: not every peak is a resonance. Where the speeds stand closer than LEAST_STEP the lower
+    of the two steps up to the peak goes on.
     """
     # of a run that diverged
     values = np.minimum(values, 1e6)

@@ -18,7 +18,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import NEAR, STEP, Requirements
-from .evidence import Evidence, beyond_model, extended, lacking, operated_alone, worst_of
+from .evidence import Evidence, beyond_model, extended, lacking, operated_alone, reach, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
@@ -195,10 +195,10 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     row |= {"value_lowest": max(min([lowest, *values]), 0.0), "value_highest": min(max([highest, *values]), most)}
     row["scatter"] = scatter
     row["margin_worst_motion"] = min((min(margins[name], row["margin"]) for name in motions if name in margins), default=np.nan)
-    known, reach = evidence.reach(nearness(only, evidence))
-    beyond = bool(np.any((reach >= 1.0) & (known < 1.0)))
+    known, may_be = reach(evidence, nearness(only, evidence))
+    beyond = REST in evidence.looks and bool(np.any((may_be >= 1.0) & (known < 1.0)))
     # a speed above yield counts in full already
-    more = beyond if requirement == "above_yield" else reach.max(initial=0.0) > (1.0 + error) * known.max(initial=0.0)
+    more = beyond if requirement == "above_yield" else may_be.max(initial=0.0) > (1.0 + error) * known.max(initial=0.0)
     # of what fails clearly nothing more was run
     coarse = row["verdict"] == FAILS and REST not in evidence.looks and evidence.gap > STEP
     notes = [row["note"], AT_LEAST if more or coarse else ""]
@@ -246,8 +246,12 @@ def _growing(only: Requirements, name: str, evidence: Evidence) -> str:
     near = nearness(only, evidence)
     # any wear is a lower bound then; a speed above yield counts in full already
     near_enough = (near >= GROWS) & (near < 1.0) if only.above_yield is not None else near >= GROWS
-    where = evidence.growing(near_enough | (only.used_lining is not None))
-    return where and f"{where}{name and f', {name}'}"
+    runs = evidence.response
+    if "motion_at_end" not in runs:
+        return ""
+    grows = (near_enough | (only.used_lining is not None)) & (runs["motion_at_end"].values == MotionAtEnd.GROWING)
+    speeds = runs["speed"].values[grows & evidence.operates]
+    return f"the motion still grows as the run ends, at {speeds[0]:.5g} rad/s{name and f', {name}'}" if len(speeds) else ""
 
 
 def _left_out(only: Requirements, evidence: Evidence, note: str) -> list[str]:

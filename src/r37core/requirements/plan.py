@@ -15,13 +15,13 @@ from r37core.config.section import ExtensionSection, Section
 from r37core.config.settings import contact_nodes, length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Panel
+from r37core.plans.other_models import MODEL_FILES, ModelChoice, tip_elements
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.datasets import FURTHER_RUNS
 from r37core.results.spectral_lines import modes_of
 from r37core.rom.naming import mode_names
-from r37core.trials.case import MODEL_FILES, ModelChoice, tip_elements
 
 from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
 

@@ -105,8 +105,8 @@ class Exceedance:
         By chance and distance of the speeds: a share changes anywhere between two of them; where it turns back at once, what is
         narrower than their distance is hit or missed.
         """
-        if not self.chance:
-            return np.nan
+        if not self.chance or len(self.speeds) < 2:
+            return 0.0 if self.chance else np.nan
         integral = measure or (lambda shares: float(np.trapezoid(shares, self.speeds)))
         changes = np.diff(self.shares)
         turns = np.append(changes[1:] * changes[:-1] < 0.0, False)

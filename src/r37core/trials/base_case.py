@@ -14,9 +14,10 @@ from r37core.config.document import ConfigRefusals, Document
 from r37core.config.fidelity import Level
 from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, left_out
 from r37core.config.settings import contact_nodes
+from r37core.plans.other_models import OWN_MESH, ModelChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
-from .case import OWN_MESH, Case, ModelChoice
+from .case import Case
 
 Changes = Callable[[Any], dict[str, dict[str, Any]]]
 """Changes by a value of a parameter: of fields of the `case`, its `choice` and `model`, and of keys of the `scene`'s entry."""

@@ -6,10 +6,11 @@ from typing import Any
 from r37core.base.plain import to_plain
 from r37core.config import Settings
 from r37core.plans import paths
+from r37core.plans.other_models import MODEL_FILES, OWN_MESH, ModelChoice
 from r37core.rom.region_choice import EVERYWHERE
 
 from . import estimate, stability, tradeoff
-from .case import MODEL_FILES, OWN_MESH, Case, ModelChoice
+from .case import Case
 
 PRESETS = {each.EXTENSION.name: each for each in (estimate, tradeoff, stability)}
 """Command -> its module, in the order of their sections in docs/configuration.md.

@@ -18,6 +18,7 @@ from r37core.fem.matrices import assemble
 from r37core.machine_code.kept import content_digest
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import read_vtu
+from r37core.plans.other_models import tip_elements
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
@@ -28,7 +29,7 @@ from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37core.stress.recovery import stress_operators
 from r37core.sweep.parts import Parts
 
-from .case import Case, tip_elements
+from .case import Case
 from .case_table import refusal
 from .runner import peak_memory, run_case, timed
 
