@@ -53,8 +53,8 @@ class Models:
 
 
 def length_text(length: float, scatter: float = np.nan) -> str:
-    """A length (rad/s), with its scatter where it has one."""
-    return f"{length:.0f}" + ("" if pd.isna(scatter) else f" ± {max(scatter, 1.0):.0f}")
+    """A length (rad/s), with its scatter where it is above 0."""
+    return f"{length:.0f}" + (f" ± {max(scatter, 1.0):.0f}" if scatter > 0.0 else "")
 
 
 def lengths(response: xr.Dataset) -> str:

@@ -39,7 +39,7 @@ def test_adaptive_speeds_stand_next_to_all(tmp_path):
     which_blade.adaptive(SimpleNamespace(**files), SimpleNamespace(table=tmp_path / "table.csv"), None)
     head, row = read_table(tmp_path / "table.csv")
     assert head[1:3] == ["lining: every 1 rad/s", "lining: adaptive"]
-    assert row[:3] == ["Ref", "11 (12)", "0 (0)"]
+    assert row[:3] == ["Ref", "11 ± 1 (12)", "0 (0)"]
 
 
 def test_blades_are_ranked_by_contact_length(tmp_path):
