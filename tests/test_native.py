@@ -190,11 +190,11 @@ def records(kind):
             yield from records(field)
 
 
-def test_no_record_has_more_than_62_fields_and_its_arrays_are_aligned_and_apart():
+def test_no_record_has_more_than_60_fields_and_its_arrays_are_aligned_and_apart():
     """A record inside of one is one field of it."""
     sizes = [len(kind.names) for kind in records(integration_record(capacity_of(1, 1)))]
     assert len(sizes) == 11
-    assert max(sizes) <= 62
+    assert max(sizes) <= 60
     for kind in records(integration_record(capacity_of(88, 9))):
         places = sorted((offset, offset + field.itemsize) for field, offset in kind.fields.values())
         assert all(end <= start for (_, end), (start, _) in pairwise(places))

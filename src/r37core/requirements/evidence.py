@@ -45,10 +45,9 @@ class Evidence:
 
     `members`, `motions`: parts of the datasets of members under tolerances and of more motions. `looks`: further runs, see
     requirements.looks, each a response of JUDGED; none where none were done, for the reason in `not_looked`, which may be that
-    another requirement `fails_elsewhere`. `clearance` (m):
-    of a casing whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); `miner_sum` of the worst
-    run-up; NaN each where not known. `error`: relative error of stress and wear by mesh and step, NaN if unknown.
-    `point_contact`: whether contact acts on points.
+    another requirement `fails_elsewhere`. `clearance` (m): of a casing whose clearance is the same at every speed; `thickness`
+    (m) of the lining; `mass` (kg); `miner_sum` of the worst run-up; NaN each where not known. `error`: relative error of stress
+    and wear by mesh and step, NaN if unknown. `point_contact`: whether contact acts on points.
     """
 
     response: xr.Dataset

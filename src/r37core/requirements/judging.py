@@ -89,7 +89,7 @@ COLUMNS = (
 `value` and `limit` are in the `unit`; the value is NaN where it is not known, for the reason in `note`. `value_lowest`,
 `value_highest`: of everything that was tried, with the error of mesh and step and two standard deviations. `margin`: distance
 from the limit, above 0 where the requirement is met. `from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard
-deviation of the value by friction and step, of a length also by chance and distance of the speeds; `members`,
+deviation of the value by friction, step and mesh, of a length also by chance and distance of the speeds; `members`,
 `share_of_members`: number of members under tolerances, and the share of them that meets it; `margin_worst_motion`: margin of
 the worst of all motions; NaN each where not run. `further_runs`: how many there were, NaN of what is not judged by runs.
 """
@@ -180,11 +180,9 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     raised = {name: other.scaled(1.0 + error) for name, other in others.items() if not name.endswith(_OF_ERROR)}
     combined = {f"{name} and {_percent(error)} more": columns_of(other) for name, other in raised.items()}
     margins = {name: margin for name, each in tried.items() if not np.isnan(margin := _margin(each, limit))}
-    repeated = [row["value"], *(tried[f"with {name}"].get("value", np.nan) for name in REPEATED if f"with {name}" in tried)]
-    scatter = float(np.linalg.norm(np.nan_to_num([row["scatter"], np.nanstd(repeated)])))
-    lowest, highest = row["value"] - DEVIATIONS * scatter, row["value"] + DEVIATIONS * scatter
-    # nothing says how a largest value scatters that was found once
-    scatter = scatter if len(repeated) > 1 or np.isfinite(row["scatter"]) else np.nan
+    row["scatter"] = scatter = _scatter(row, tried)
+    deviation = DEVIATIONS * np.nan_to_num(scatter)
+    lowest, highest = row["value"] - deviation, row["value"] + deviation
     if requirement == "above_yield" and is_lined(evidence.response) and row["value"] > 0.0:
         # wherever its borders lie, a speed above yield is one
         lowest = max(lowest, 1e-9)
@@ -193,12 +191,8 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     values = [value for each in (*tried.values(), *combined.values()) if np.isfinite(value := each.get("value", np.nan))]
     most = evidence.operating.last - evidence.operating.first if requirement == "above_yield" else np.inf
     row |= {"value_lowest": max(min([lowest, *values]), 0.0), "value_highest": min(max([highest, *values]), most)}
-    row["scatter"] = scatter
     row["margin_worst_motion"] = min((min(margins[name], row["margin"]) for name in motions if name in margins), default=np.nan)
-    known, may_be = reach(evidence, nearness(only, evidence))
-    beyond = REST in evidence.looks and bool(np.any((may_be >= 1.0) & (known < 1.0)))
-    # a speed above yield counts in full already
-    more = beyond if requirement == "above_yield" else may_be.max(initial=0.0) > (1.0 + error) * known.max(initial=0.0)
+    beyond, more = _may_come_nearer(only, evidence, error)
     # of what fails clearly nothing more was run
     coarse = row["verdict"] == FAILS and REST not in evidence.looks and evidence.gap > STEP
     notes = [row["note"], AT_LEAST if more or coarse else ""]
@@ -220,6 +214,24 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     elif row["verdict"] == MEETS and not evidence.touches:
         row["note"] = NO_CONTACT
     return row
+
+
+def _scatter(row: Mapping[str, Any], tried: Mapping[str, Columns]) -> float:
+    """Standard deviation of a row's value by its own scatter and by the runs that repeat it; NaN where nothing says it."""
+    values = [tried[f"with {name}"].get("value", np.nan) for name in REPEATED if f"with {name}" in tried]
+    if not values and np.isnan(row["scatter"]):
+        return np.nan
+    return float(np.linalg.norm(np.nan_to_num([row["scatter"], np.nanstd([row["value"], *values])])))
+
+
+def _may_come_nearer(only: Requirements, evidence: Evidence, error: float) -> tuple[bool, bool]:
+    """Two answers: whether a peak below the one limit may come beyond it, and whether the worst value may be larger than known."""
+    known, may_be = reach(evidence, nearness(only, evidence))
+    beyond = REST in evidence.looks and bool(np.any((may_be >= 1.0) & (known < 1.0)))
+    if only.above_yield is not None:
+        # a speed above yield counts in full already
+        return beyond, beyond
+    return beyond, bool(may_be.max(initial=0.0) > (1.0 + error) * known.max(initial=0.0))
 
 
 def _how_much(only: Requirements, evidence: Evidence) -> str:
@@ -303,9 +315,10 @@ def _measured_error(only: Requirements, evidence: Evidence) -> float:
             return evidence.error
         other = evidence.looks[look]
         both = [nearness(only, evidence.replaced(runs)) for runs in (evidence.response.sel(speed=other["speed"]), other)]
-        own, changed = np.max(both, axis=1, where=np.isfinite(both).all(axis=0), initial=0.0)
-        if not np.isfinite(both).all(axis=0).any():
+        ended = np.isfinite(both).all(axis=0)
+        if not ended.any():
             return evidence.error
+        own, changed = np.max(both, axis=1, where=ended, initial=0.0)
         changes.append(abs(changed / own - 1.0) if own > 0.0 else 0.0)
     return float(np.linalg.norm(changes))
 

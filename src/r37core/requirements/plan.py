@@ -99,9 +99,9 @@ class Judged:
         return [pair for pair in pairs if pair not in short and pair[1] not in self.not_looked]
 
     def coarser_model(self, wildcards: Any) -> dict[str, str]:
-        """Files of the model of a blade and scene on a mesh of half the nodes; none of a mesh that is given, or of a line else.
+        """Files of the model of a blade and scene on a mesh of half the nodes, which `snakemake tradeoff` may have made.
 
-        A model of the trials, which `snakemake tradeoff` has, too.
+        None of a mesh that another program made, nor of a scene with a tip line of its own.
         """
         settings, blade = self.sweep.settings, wildcards.blade
         own_line = settings.scenes[wildcards.scene].tip_line == settings.structure.boundary.tip_line
@@ -153,8 +153,8 @@ class Judged:
     def clearance(self) -> dict[str, float]:
         """Clearance (m) of each scene where it is the same at every speed."""
         casings = {name: chosen.scene.casing for name, chosen in self.sweep.settings.scenes.items()}
-        smallest = {name: casing.clearance + min(casing.change, default=0.0) for name, casing in casings.items()}
-        return {name: clearance for name, clearance in smallest.items() if not casings[name].changes_with_speed}
+        constant = {name: casing for name, casing in casings.items() if not casing.changes_with_speed}
+        return {name: casing.clearance + casing.least_change for name, casing in constant.items()}
 
     @property
     def thickness(self) -> dict[str, float]:

@@ -1,6 +1,5 @@
 """The steps of requirements: further runs, what lies in the operating range, and the verdict."""
 
-import os
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -23,7 +22,7 @@ from r37core.results.table_file import read_table, write_table
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.operator import read_stress_operators
-from r37core.stress.recovery import stress_operators
+from r37core.stress.recovery import stress_operator
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -55,16 +54,12 @@ def look(input: Any, output: Any, params: Any) -> None:
         Parts(Path(output.looks).with_suffix(""), made_of),
         dict([next(iter(read_stress_operators(input.stress).items()))]) if hasattr(input, "stress") else None,
     )
-    if Path(getattr(input, "coarser_contact", os.devnull)).stat().st_size:
-        material = from_plain(Material, params.material)
-        operators = blade.stress and stress_operators(read_reduced_model(input.coarser_rom), material)
-        digests = [content_digest(file) for file in (input.coarser_contact, input.coarser_rom)]
-        coarser = replace(
-            blade,
-            model=read_contact_model(input.coarser_contact),
-            stress=operators and {name: operators[name] for name in blade.stress or {}},
-            parts=Parts(blade.parts.folder / "coarser", [*made_of, *digests]),
-        )
+    if hasattr(input, "coarser_contact") and Path(input.coarser_contact).stat().st_size:
+        made_of += [content_digest(file) for file in (input.coarser_contact, input.coarser_rom)]
+        parts, material = Parts(blade.parts.folder / "coarser", made_of), from_plain(Material, params.material)
+        # the region that decides is the same
+        operators = {name: stress_operator(read_reduced_model(input.coarser_rom), material) for name in blade.stress or {}}
+        coarser = replace(blade, model=read_contact_model(input.coarser_contact), parts=parts, stress=operators or None)
         blade = replace(blade, coarser=coarser)
     evidence = Evidence(
         judged_part(read_judged(input.response)),

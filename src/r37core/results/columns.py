@@ -216,7 +216,7 @@ ROBUSTNESS = (
     *DANGER[2:],
     Column(
         "length_most_revolutions_within_rad_s",
-        "by how much that length may be off: distance of the speeds, scatter by chance and error of the level together",
+        "by how much that length may be off: two standard deviations by chance and speeds, and the level's error",
         "known within",
     ),
     Column("length_some_revolutions_within_rad_s", "the same of the length in some revolutions", "known within"),

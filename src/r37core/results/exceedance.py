@@ -96,7 +96,7 @@ class Exceedance:
 
     @property
     def integral(self) -> float:
-        """Integral of the shares over speed (rad/s): without threshold and smoothing, it scatters less than lengths do."""
+        """Integral of the shares over speed (rad/s), without threshold and smoothing."""
         return float(np.trapezoid(self.shares, self.speeds))
 
     def scatter_of_integral(self, measure: Callable[[np.ndarray], float] | None = None) -> float:
@@ -105,12 +105,12 @@ class Exceedance:
         By chance and distance of the speeds: a share changes anywhere between two of them; where it turns back at once, what is
         narrower than their distance is hit or missed.
         """
-        if not self.chance or len(self.speeds) < 2:
-            return 0.0 if self.chance else np.nan
+        if not self.chance:
+            return np.nan
         integral = measure or (lambda shares: float(np.trapezoid(shares, self.speeds)))
         changes = np.diff(self.shares)
-        turns = np.append(changes[1:] * changes[:-1] < 0.0, False)
-        variance = np.where(turns | np.append(False, turns[:-1]), 1.0 / 2.0, 1.0 / 12.0)
+        turns = np.concatenate([[False], changes[1:] * changes[:-1] < 0.0, [False]])[: len(changes) + 1]
+        variance = np.where(turns[1:] | turns[:-1], 1.0 / 2.0, 1.0 / 12.0)
         steps = [integral(unit) for unit in np.eye(len(self.shares))]
         grid = variance @ np.square(changes * np.minimum(steps[1:], steps[:-1]))
         return float(np.sqrt(np.var([integral(shares) for shares in self.drawn]) + grid))

@@ -35,7 +35,7 @@ _MOTION = {
     "beyond_limits": Variable((), "1", "1 where the run is beyond the model's limits", "f4"),
     "bounded_share_of_time": Variable((), "1", "share of the steps in which the bound on the elastic energy acts"),
     "energy_residual_share": Variable((), "1", "size of the energy residual over the largest of work, loss and energy change"),
-    "friction_power": Variable((), "W", "mean power of the friction over the later revolutions"),
+    "friction_power": Variable((), "W", "mean power of the friction over the later revolutions, of a rotor over all"),
     "melting_power": Variable((), "W", "power of the friction of which a tenth melts the tip in a second"),
     "motion_at_end": Variable((), "1", "state of the motion at the end of the run", "i1", MotionAtEnd),
     "settled_revolution": Variable((), "1", "revolution after which the run ended as it had settled, NaN where it did not"),

@@ -210,7 +210,7 @@ def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, np.ndarray]
     balance = energy_balance(run.contact_work, float(totals["loss"].sum()), run.energy_change)
     *parts, residual = (abs(float(part)) for part in balance.values())
     return {
-        "energy_residual_share": np.array(residual / max(parts) if max(parts) else max(parts)),
+        "energy_residual_share": np.array(residual / max(parts) if max(parts) else 0.0),
         "bounded_share_of_time": np.array((totals["steps_bounded"] / np.maximum(totals["steps"], 1.0)).max()),
         "friction_power": np.array(run.ending.friction_power),
         "melting_power": np.array(MELTING * run.problem.model.tip_lengths.sum()),

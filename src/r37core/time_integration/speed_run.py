@@ -118,8 +118,7 @@ def numbers_of_run(
     numbers |= kept_numbers.limit_numbers(run, totals)
     numbers |= ending_numbers(run, samples)
     if scene.casing.changes_with_speed:
-        change = min(scene.casing.change, default=0.0)
-        numbers["clearance"] = np.min([each.casing.clearance for each in run.problems], axis=0) + change
+        numbers["clearance"] = np.min([each.casing.clearance for each in run.problems], axis=0) + scene.casing.least_change
     if "spectrum" in results:
         leading = statistic[run.leader(statistic)]
         motion = leading[:, 0, LEADING_EDGE].T

@@ -226,7 +226,7 @@ class LaidOutProblem:
     def _lay_out_friction(self, problem: Problem, friction: Friction) -> None:
         velocity = problem.casing.rotation_velocity
         rotation = velocity * problem.grid.time_step
-        self.put(friction=friction.coefficient, rotation=rotation, sliding=np.abs(rotation))
+        self.put(friction=friction.coefficient, sliding=np.stack([rotation, np.abs(rotation)]))
         if not friction.vector:
             self.put(friction_share=np.stack([friction.coefficient * np.sign(velocity), np.zeros(self._nodes)]))
 

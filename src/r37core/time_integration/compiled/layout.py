@@ -228,7 +228,6 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("response", nodes, nodes),
         _fields("force", nodes),
         _fields("friction_force", 2, nodes),
-        _fields("sliding", nodes),  # length (m) that friction acts along in a step
         # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
         # at a sample, and the static modes' part of it; the contact problem
         _fields("flexibility", 3, nodes, nodes),
@@ -236,7 +235,8 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("force_outputs", 1, modes, 3 * nodes),
         _fields("contact", kind=contact_record(nodes)),
         _fields("second", kind=second_order_record(modes)),
-        _fields("rotation", nodes),  # signed sliding in a step by the rotation (m)
+        # sliding in a step (m): signed, by the rotation; length that friction acts along
+        _fields("sliding", 2, nodes),
         # angle at step 0, in bars; surface (m2) of the casing under a bar; penetration (m) and, with the
         # exact gap, angle in bars at t_n
         _fields("bar_position bar_surface penetration last_position", nodes),
@@ -251,7 +251,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("edge", kind=EDGE),
         _fields("totals", kind=TOTALS),
         # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
-        _fields("block_work block_loss", LANES),
+        _fields("block_energy", 2, LANES),
         _fields("follows", kind=np.int64),
         _fields("worn largest_wear"),  # off the lining by this blade (m3); of all bars (m)
         _fields("limit friction opening"),  # of the clearance in this block (m)

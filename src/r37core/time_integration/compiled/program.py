@@ -87,8 +87,8 @@ def _begin_block(addresses, blades, block):
     for b in range(blades):
         m = pointed_at(addresses[b])
         m.opening = numbers_at(m.call.openings)[block]
-        store(m.block_work, 0, 0.0)
-        store(m.block_loss, 0, 0.0)
+        store(m.block_energy, (0, 0), 0.0)
+        store(m.block_energy, (1, 0), 0.0)
 
 
 @inlined
@@ -107,7 +107,7 @@ def _choose_jump(addresses, blades, interval, first_stride, left, remaining):
 def _jump(addresses, blades, stride):
     for b in range(blades):
         m = pointed_at(addresses[b])
-        store(m.block_loss, 0, jump_ahead(m, stride, load(m.block_loss, 0)))
+        store(m.block_energy, (1, 0), jump_ahead(m, stride, load(m.block_energy, (1, 0))))
         if m.pairs > 0:
             turn_jump(m, stride)
         m.totals.steps_jumped += m.flight.lengths[stride]
@@ -120,7 +120,7 @@ def _fly(addresses, blades):
     pushed = False
     for b in range(blades):
         m = pointed_at(addresses[b])
-        store(m.block_loss, 0, predict(m, load(m.block_loss, 0)))
+        store(m.block_energy, (1, 0), predict(m, load(m.block_energy, (1, 0))))
         if not PUBLISHED and m.follows != 0:
             sum_pushes(m)
             pushed = True
@@ -153,7 +153,7 @@ def _share_pushes(addresses, blades):
 @inlined
 def _push(m, counted):
     """Push a blade and the casing, whose work is `counted` with one of them."""
-    work, lost, casing = load(m.block_work, 0), load(m.block_loss, 0), _first_of_casing(m)
+    work, lost, casing = load(m.block_energy, (0, 0)), load(m.block_energy, (1, 0)), _first_of_casing(m)
     if m.quadratic != 0 or m.follows != 0:
         work, lost = push_lanes(m, 0, casing, work, lost)
     work_of_both, lost_of_both = push_lanes(m, casing, mode_lanes(m), work, lost)
@@ -161,8 +161,8 @@ def _push(m, counted):
         work, lost = work_of_both, lost_of_both
     if m.quadratic != 0:
         work = follow_quadratic(m, work)
-    store(m.block_work, 0, work)
-    store(m.block_loss, 0, lost)
+    store(m.block_energy, (0, 0), work)
+    store(m.block_energy, (1, 0), lost)
 
 
 @inlined
@@ -178,9 +178,9 @@ def _meet(m, place, lobes):
         if m.lined != 0:
             follow_gaps(m, m.problem.gap, place)
     elif PUBLISHED:
-        work, lost = meet(m, place, load(m.block_work, 0), load(m.block_loss, 0))
-        store(m.block_work, 0, work)
-        store(m.block_loss, 0, lost)
+        work, lost = meet(m, place, load(m.block_energy, (0, 0)), load(m.block_energy, (1, 0)))
+        store(m.block_energy, (0, 0), work)
+        store(m.block_energy, (1, 0), lost)
         measure_edge(m, place, lobes)
     else:
         m.follows = int(press_contact(m, place))
@@ -197,8 +197,8 @@ def _end_block(addresses, blades, block, row):
     within = True
     for b in range(blades):
         m = pointed_at(addresses[b])
-        m.totals.work += 0.5 * sum_of_lanes(load(m.block_work, 0))
-        m.totals.loss += sum_of_lanes(load(m.block_loss, 0))
+        m.totals.work += 0.5 * sum_of_lanes(load(m.block_energy, (0, 0)))
+        m.totals.loss += sum_of_lanes(load(m.block_energy, (1, 0)))
         m.totals.steps += m.steps_per_block
         within &= record(m, block, row, m.follows != 0)
     return within

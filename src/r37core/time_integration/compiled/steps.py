@@ -146,9 +146,9 @@ def measure_exact_gaps(m, place, lobes):
 def set_friction(m, g, tangential, meridional):
     """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
     # a normal force is negative
-    tangential += load(m.rotation, g)
+    tangential += load(m.sliding, (0, g))
     along_tangent, along_meridian = _friction_direction(tangential, meridional, -m.friction)
-    store(m.sliding, g, np.sqrt(tangential * tangential + meridional * meridional))
+    store(m.sliding, (1, g), np.sqrt(tangential * tangential + meridional * meridional))
     store(m.friction_share, (0, g), along_tangent)
     store(m.friction_share, (1, g), along_meridian)
 
@@ -397,7 +397,7 @@ def set_friction_force(m):
 @inlined
 def heat(m, g, normal):
     """Add the work of the friction of `normal` forces on the nodes from g on, against their sliding in this step."""
-    m.totals.friction_heat -= m.friction * sum_of_lanes(normal * load(m.sliding, g))
+    m.totals.friction_heat -= m.friction * sum_of_lanes(normal * load(m.sliding, (1, g)))
 
 
 @inlined
