@@ -112,14 +112,14 @@ class Casing:
             )
         return np.interp(speeds, self.growth_speeds, self.growth)
 
-    @property
-    def least_change(self) -> float:
-        """Smallest change (m) of the clearance in a run; 0 where it does not change."""
-        return min(self.change, default=0.0)
-
     def change_at(self, revolutions: np.ndarray) -> np.ndarray:
         """Clearance (m) that so many revolutions of a run add, in their shape."""
         return np.interp(revolutions, self.change_revolutions or (0.0,), self.change or (0.0,))
+
+
+def least_change(casing: Casing) -> float:
+    """Smallest change (m) of a casing's clearance in a run; 0 where it does not change."""
+    return min(casing.change, default=0.0)
 
 
 def rise_rate(rise_time: float) -> float:

@@ -225,7 +225,7 @@ def _scatter(row: Mapping[str, Any], tried: Mapping[str, Columns]) -> float:
 
 
 def _may_come_nearer(only: Requirements, evidence: Evidence, error: float) -> tuple[bool, bool]:
-    """Two answers: whether a peak below the one limit may come beyond it, and whether the worst value may be larger than known."""
+    """Two answers: whether a peak below the one limit may come beyond it, and whether the worst value may be larger."""
     known, may_be = reach(evidence, nearness(only, evidence))
     beyond = REST in evidence.looks and bool(np.any((may_be >= 1.0) & (known < 1.0)))
     if only.above_yield is not None:

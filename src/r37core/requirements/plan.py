@@ -13,6 +13,7 @@ from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import ExtensionSection, Section
 from r37core.config.settings import contact_nodes, length_of_run
+from r37core.contact.casing import least_change
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Panel
 from r37core.plans.other_models import MODEL_FILES, ModelChoice, tip_elements
@@ -154,7 +155,7 @@ class Judged:
         """Clearance (m) of each scene where it is the same at every speed."""
         casings = {name: chosen.scene.casing for name, chosen in self.sweep.settings.scenes.items()}
         constant = {name: casing for name, casing in casings.items() if not casing.changes_with_speed}
-        return {name: casing.clearance + casing.least_change for name, casing in constant.items()}
+        return {name: casing.clearance + least_change(casing) for name, casing in constant.items()}
 
     @property
     def thickness(self) -> dict[str, float]:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from r37core.contact.casing import least_change
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.quadratic_terms import PATH_ERROR
@@ -118,7 +119,7 @@ def numbers_of_run(
     numbers |= kept_numbers.limit_numbers(run, totals)
     numbers |= ending_numbers(run, samples)
     if scene.casing.changes_with_speed:
-        numbers["clearance"] = np.min([each.casing.clearance for each in run.problems], axis=0) + scene.casing.least_change
+        numbers["clearance"] = np.min([each.casing.clearance for each in run.problems], axis=0) + least_change(scene.casing)
     if "spectrum" in results:
         leading = statistic[run.leader(statistic)]
         motion = leading[:, 0, LEADING_EDGE].T
