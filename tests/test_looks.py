@@ -15,7 +15,9 @@ from r37core.requirements.choice import WIDTH, Requirements
 from r37core.requirements.evidence import Evidence
 from r37core.requirements.judging import (
     DOWN,
+    FAILS,
     FAST_RISE,
+    HALF_FRICTION,
     HALF_STEP,
     HIGHEST_DAMPING,
     LARGE_CHANGES,
@@ -26,7 +28,9 @@ from r37core.requirements.judging import (
     REST,
     SLIGHTLY_MORE_FRICTION,
     SLOW_RISE,
+    SLOWEST_RISE,
     UP,
+    judge,
 )
 from r37core.requirements.looks import JudgedBlade, joined_looks, looks_in, looks_of
 from r37core.results.operating_range import OperatingRange
@@ -70,7 +74,7 @@ def evidence(used=1e-5, speeds=(1290.0, 1305.0, 1320.0)):
 
 def test_what_is_run_where_nothing_fails(lined):
     found = dict(looks_of(lined, NEEDS, evidence()))
-    assert tuple(found) == LOOKS
+    assert tuple(found) == tuple(look for look in LOOKS if look != HALF_FRICTION)
     assert found[REST]["speed"].values.tolist() == [1300.0, 1302.5, 1305.0, 1307.5, 1310.0]
     for motion in (UP, DOWN):
         assert found[motion]["speed"].values.tolist() == [1300.0, 1305.0, 1310.0]
@@ -98,6 +102,10 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
         HALF_STEP: (rising, replace(long, time_step=0.5 * CHOICE.time_step)),
         FAST_RISE: (replace(rising, casing=replace(rising.casing, rise_revolutions=0.6)), long),
         SLOW_RISE: (replace(rising, casing=replace(rising.casing, rise_revolutions=12.0)), long),
+        SLOWEST_RISE: (
+            replace(rising, casing=replace(rising.casing, rise_revolutions=8.0)),
+            replace(long, until_settled=False),
+        ),
     }
     used = {}
     for name, (scene, choice) in expected.items():
@@ -107,7 +115,7 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
         run = found[name].sel(speed=1305.0)
         np.testing.assert_array_equal(run["rms_normal"].sel(tip_point="leading_edge"), row["rms_normal"][0])
         np.testing.assert_array_equal(run["amplitude"], row["amplitude"])
-    assert len(set(used.values())) == 9
+    assert len(set(used.values())) == 10
 
 
 def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
@@ -174,6 +182,28 @@ def test_large_changes_are_tried_where_runs_fail_or_nearly_do(lined, monkeypatch
     assert all(found[name]["speed"].values.tolist() == [1300.0, 1302.5] for name in LARGE_CHANGES)
 
 
+def test_half_the_friction_is_tried_of_the_run_that_diverged_soonest(lined):
+    """What it says stands in the note on the divergence, and judges nothing."""
+    gone = evidence().response.assign(
+        status=("speed", [0, RunStatus.DIVERGED, RunStatus.DIVERGED]), diverged_revolution=("speed", [np.nan, 9.0, 4.0])
+    )
+    runs = replace(evidence().replaced(gone), operating=OperatingRange(1300.0, 1320.0))
+    found = dict(looks_of(lined, NEEDS, runs))
+    assert found[HALF_FRICTION]["speed"].values.tolist() == [1320.0]
+    half = replace(lined.rising_scene.friction, coefficient=0.5 * LINED.friction.coefficient)
+    expected = lined.runs_from_rest([1320.0], replace(lined.rising_scene, friction=half))
+    xr.testing.assert_identical(found[HALF_FRICTION], expected)
+    alone = replace(runs, looks={HALF_FRICTION: expected})
+    (judgement,) = judge(NEEDS, alone)
+    told = "every run diverged, soonest at 1320 rad/s after 4 revolutions"
+    assert (
+        judgement["verdict"] == FAILS
+        and f"{told}; with half the friction this run ends: friction drives it" in judgement["note"]
+    )
+    same = replace(runs, looks={HALF_FRICTION: expected.assign(status=("speed", [int(RunStatus.DIVERGED)]))})
+    assert same.divergence == told
+
+
 def test_a_length_that_fails_is_tried_at_all_speeds(lined, monkeypatch):
     """A speed that stays above yield says nothing of the length."""
     monkeypatch.setattr(further_runs, "nearness", lambda _, of: np.full(len(of.speeds), 1.2))
@@ -200,7 +230,7 @@ def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
 def test_without_friction_only_the_step_is_changed(contact, lined):
     bare = replace(lined, scene=replace(DIRECT, friction=None), results=(), coarser=None)
     few = replace(evidence(), operating=OperatingRange(1304.0, 1305.0))
-    assert tuple(dict(looks_of(bare, NEEDS, few))) == (REST, SLOW_RISE, UP, DOWN, HALF_STEP)
+    assert tuple(dict(looks_of(bare, NEEDS, few))) == (REST, SLOW_RISE, SLOWEST_RISE, UP, DOWN, HALF_STEP)
 
 
 def test_runs_stand_closer_about_a_peak_below_the_limit():

@@ -21,7 +21,7 @@ LEAST_STEP = 0.2
 CARRIED_STEP = WIDTH
 """Step (rad/s) between the speeds that a motion is carried through."""
 
-MOST_NEAR, OTHERS = 24, 9
+MOST_NEAR, OTHERS = 24, 10
 """Speeds, those nearest to the limit, that are run in so many other ways: other friction, step, mesh, damping and rise."""
 
 LONGEST = 1000

@@ -36,6 +36,9 @@ OF_ALL = ("lined", "yield_stress", "static_stress", "fatigue_strength")
 SHOWN = 0.9
 """Share of a peak that speeds beside it have at least where they show how high it is."""
 
+HALF_FRICTION = "half the friction"
+"""Look at the run that diverged soonest, which says whether friction drives it; it judges nothing."""
+
 _ROUNDING = 1e-6
 
 
@@ -111,19 +114,26 @@ class Evidence:
         return (speeds >= self.operating.first) & (speeds <= self.operating.last)
 
     @property
+    def soonest_divergence(self) -> xr.Dataset:
+        """The run in operation that diverged soonest, of one speed; of none where none did."""
+        ended = self.response.isel(speed=np.flatnonzero(self.operates & self.diverged))
+        lasted = ended.get("diverged_revolution", ended["speed"]).values
+        return ended.isel(speed=np.argsort(np.nan_to_num(lasted, nan=np.inf), kind="stable")[:1])
+
+    @property
     def divergence(self) -> str:
         """How many runs in operation diverged, and when; empty where none did."""
-        runs = self.response.isel(speed=np.flatnonzero(self.operates))
-        ended = runs.isel(speed=np.flatnonzero(runs["status"].values == RunStatus.DIVERGED))
-        if not ended.sizes["speed"]:
+        soonest, count, total = self.soonest_divergence, np.count_nonzero(self.operates & self.diverged), self.operates.sum()
+        if not count:
             return ""
-        count, total = ended.sizes["speed"], runs.sizes["speed"]
         many = "every run" if count == total else f"{count} of {total} runs"
-        if "diverged_revolution" not in ended:
+        if "diverged_revolution" not in soonest:
             return f"{many} diverged"
-        lasted = np.nan_to_num(ended["diverged_revolution"].values, nan=np.inf)
-        speed, revolutions = ended["speed"].values[lasted.argmin()], lasted.min()
-        return f"{many} diverged, soonest at {speed:.5g} rad/s after {revolutions:.3g} revolutions"
+        revolutions = soonest["diverged_revolution"].values[0]
+        friction = self.looks.get(HALF_FRICTION)
+        ends = friction is not None and bool((friction["status"] == RunStatus.COMPLETED).all())
+        by_friction = f"; with {HALF_FRICTION} this run ends: friction drives it" if ends else ""
+        return f"{many} diverged, soonest at {soonest['speed'][0]:.5g} rad/s after {revolutions:.3g} revolutions{by_friction}"
 
     @property
     def diverged(self) -> np.ndarray:

@@ -17,8 +17,8 @@ from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
-from .choice import NEAR, STEP, Requirements
-from .evidence import Evidence, beyond_model, extended, lacking, operated_alone, reach, worst_of
+from .choice import LONGEST, NEAR, STEP, Requirements
+from .evidence import HALF_FRICTION, Evidence, beyond_model, extended, lacking, operated_alone, reach, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
@@ -28,9 +28,10 @@ HALF_STEP, COARSER_MESH = "half the step", "a mesh of half the nodes"
 REPEATED = (MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION, HALF_STEP, COARSER_MESH)
 LOWEST_DAMPING, HIGHEST_DAMPING = "lowest damping", "highest damping"
 FAST_RISE, SLOW_RISE = "lobes that rise ten times as fast", f"lobes that rise over {PUBLISHED_REVOLUTIONS} revolutions"
+SLOWEST_RISE = f"lobes that rise over {LONGEST - PUBLISHED_REVOLUTIONS} revolutions"
 _OF_ERROR = (HALF_STEP, COARSER_MESH)
-LARGE_CHANGES = (LOWEST_DAMPING, HIGHEST_DAMPING, FAST_RISE, SLOW_RISE)
-LOOKS = (REST, *LARGE_CHANGES, UP, DOWN, *REPEATED)
+LARGE_CHANGES = (LOWEST_DAMPING, HIGHEST_DAMPING, FAST_RISE, SLOW_RISE, SLOWEST_RISE)
+LOOKS = (REST, HALF_FRICTION, *LARGE_CHANGES, UP, DOWN, *REPEATED)
 """Further runs of a blade in a scene; see requirements.looks."""
 
 _OTHER_MOTIONS = (UP, DOWN)

@@ -33,7 +33,7 @@ from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import numbers_of_run
 
 from .choice import CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements
-from .evidence import OF_ALL, Evidence, peak_reach
+from .evidence import HALF_FRICTION, OF_ALL, Evidence, peak_reach
 from .judging import (
     CLEARLY,
     COARSER_MESH,
@@ -47,6 +47,7 @@ from .judging import (
     REST,
     SLIGHTLY_MORE_FRICTION,
     SLOW_RISE,
+    SLOWEST_RISE,
     UP,
     closeness,
     fails_clearly,
@@ -89,15 +90,21 @@ class JudgedBlade:
         kept = longest if self.choice.snapshots_per_revolution else 0
         return replace(self.choice, revolutions=longest, snapshot_revolutions=kept, until_settled=True)
 
+    def with_friction(self, factor: float) -> Scene | None:
+        """The rising scene with its coefficient of friction times a `factor`; None without friction."""
+        scene = self.rising_scene
+        if scene.friction is None:
+            return None
+        return replace(scene, friction=replace(scene.friction, coefficient=factor * scene.friction.coefficient))
+
     @cached_property
     def rising_scene(self) -> Scene:
         """The scene with lobes that grow as in the sweep's runs, however long a run is."""
         return self.scene.rising_over(self.choice.length_of_rise_fraction)
 
-    def runs_from_rest(self, speeds: Iterable[float], scene: Scene | None = None, step: float = 1.0) -> xr.Dataset:
-        """Runs from rest at speeds (rad/s), in another scene if it is given, with a share of the time `step`."""
-        choice = replace(self.long_choice, time_step=step * self.long_choice.time_step)
-        of = scene or self.rising_scene
+    def runs_from_rest(self, speeds: Iterable[float], scene: Scene | None = None, **changes: Any) -> xr.Dataset:
+        """Runs from rest at speeds (rad/s), in another scene if it is given, with changes of the long choice."""
+        of, choice = scene or self.rising_scene, replace(self.long_choice, **changes)
         runs = {speed: partial(self._run, of, choice, speed) for speed in speeds}
         return self._dataset({speed: self.parts.file(speed, (of, choice), run) for speed, run in runs.items()})
 
@@ -175,12 +182,10 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     yield DOWN, blade.carried(carried[::-1])
     close = closeness(requirements, rest)
     near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[: _speeds_near(close)]]).tolist()
-    friction = blade.scene.friction
-    if friction is not None:
-        for look, factor in _FRICTION.items():
-            changed = replace(friction, coefficient=factor * friction.coefficient)
-            yield look, blade.runs_from_rest(near, replace(blade.rising_scene, friction=changed))
-    yield HALF_STEP, blade.runs_from_rest(near, step=0.5)
+    for look, factor in _FRICTION.items():
+        if scene := blade.with_friction(factor):
+            yield look, blade.runs_from_rest(near, scene)
+    yield HALF_STEP, blade.runs_from_rest(near, time_step=0.5 * blade.long_choice.time_step)
     if blade.coarser:
         yield COARSER_MESH, blade.coarser.runs_from_rest(near)
 
@@ -188,20 +193,26 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
 def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
     """LARGE_CHANGES, at the speeds in operation where `runs` fail and up to MOST_NEAR in all, those nearest to a limit.
 
-    What still fails at the worst speed is run at no other, but for a limit of a length.
+    What still fails at the worst speed is run at no other, but for a limit of a length. HALF_FRICTION where a run diverged.
     """
+    soonest = runs.soonest_divergence["speed"].values.tolist()
+    if soonest and (less := blade.with_friction(0.5)):
+        yield HALF_FRICTION, blade.runs_from_rest(soonest, less)
     near, scene = nearness(requirements, runs)[runs.operates], blade.rising_scene
     count = max(_speeds_near(near), int(np.count_nonzero(near >= 1.0)))
     speeds = runs.response["speed"].values[runs.operates][np.argsort(-near, kind="stable")[:count]].tolist()
     changes = {LOWEST_DAMPING: scene.damped("lowest"), HIGHEST_DAMPING: scene.damped("highest")}
     fast = 0.1 * (scene.casing.rise_revolutions or 0.0)
-    for look, revolutions in ((FAST_RISE, fast), (SLOW_RISE, float(PUBLISHED_REVOLUTIONS))):
+    slow, slowest = PUBLISHED_REVOLUTIONS, LONGEST - PUBLISHED_REVOLUTIONS
+    for look, revolutions in ((FAST_RISE, fast), (SLOW_RISE, float(slow)), (SLOWEST_RISE, float(slowest))):
         changes[look] = replace(scene, casing=replace(scene.casing, rise_revolutions=revolutions))
     for look, changed in changes.items():
         if changed != scene and speeds:
-            worst = blade.runs_from_rest(speeds[:1], changed)
+            # what grows slowly may pass its largest motion before the end: the later half of the run counts
+            run = partial(blade.runs_from_rest, scene=changed, until_settled=look != SLOWEST_RISE)
+            worst = run(speeds[:1])
             fails = near.max() >= 1.0 and nearness(requirements, runs.replaced(worst)).max() >= 1.0
-            yield look, worst if fails and not requirements.above_yield else blade.runs_from_rest(speeds, changed)
+            yield look, worst if fails and not requirements.above_yield else run(speeds)
 
 
 def _speeds_near(near: np.ndarray) -> int:
