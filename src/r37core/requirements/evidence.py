@@ -132,8 +132,8 @@ class Evidence:
         revolutions = soonest["diverged_revolution"].values[0]
         friction = self.looks.get(HALF_FRICTION)
         ends = friction is not None and bool((friction["status"] == RunStatus.COMPLETED).all())
-        by_friction = f"; with {HALF_FRICTION} this run ends: friction drives it" if ends else ""
-        return f"{many} diverged, soonest at {soonest['speed'][0]:.5g} rad/s after {revolutions:.3g} revolutions{by_friction}"
+        driven = f"; with {HALF_FRICTION} this run ends: friction drives it" if ends else ""
+        return f"{many} diverged, soonest at {soonest['speed'][0]:.5g} rad/s after {revolutions:.3g} revolutions{driven}"
 
     @property
     def diverged(self) -> np.ndarray:

@@ -90,7 +90,7 @@ class JudgedBlade:
         kept = longest if self.choice.snapshots_per_revolution else 0
         return replace(self.choice, revolutions=longest, snapshot_revolutions=kept, until_settled=True)
 
-    def with_friction(self, factor: float) -> Scene | None:
+    def scaled_friction(self, factor: float) -> Scene | None:
         """The rising scene with its coefficient of friction times a `factor`; None without friction."""
         scene = self.rising_scene
         if scene.friction is None:
@@ -183,7 +183,7 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     close = closeness(requirements, rest)
     near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[: _speeds_near(close)]]).tolist()
     for look, factor in _FRICTION.items():
-        if scene := blade.with_friction(factor):
+        if scene := blade.scaled_friction(factor):
             yield look, blade.runs_from_rest(near, scene)
     yield HALF_STEP, blade.runs_from_rest(near, time_step=0.5 * blade.long_choice.time_step)
     if blade.coarser:
@@ -196,7 +196,7 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
     What still fails at the worst speed is run at no other, but for a limit of a length. HALF_FRICTION where a run diverged.
     """
     soonest = runs.soonest_divergence["speed"].values.tolist()
-    if soonest and (less := blade.with_friction(0.5)):
+    if soonest and (less := blade.scaled_friction(0.5)):
         yield HALF_FRICTION, blade.runs_from_rest(soonest, less)
     near, scene = nearness(requirements, runs)[runs.operates], blade.rising_scene
     count = max(_speeds_near(near), int(np.count_nonzero(near >= 1.0)))
