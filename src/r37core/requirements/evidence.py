@@ -114,16 +114,9 @@ class Evidence:
         return (speeds >= self.operating.first) & (speeds <= self.operating.last)
 
     @property
-    def soonest_divergence(self) -> xr.Dataset:
-        """The run in operation that diverged soonest, of one speed; of none where none did."""
-        ended = self.response.isel(speed=np.flatnonzero(self.operates & self.diverged))
-        lasted = ended.get("diverged_revolution", ended["speed"]).values
-        return ended.isel(speed=np.argsort(np.nan_to_num(lasted, nan=np.inf), kind="stable")[:1])
-
-    @property
     def divergence(self) -> str:
         """How many runs in operation diverged, and when; empty where none did."""
-        soonest, count, total = self.soonest_divergence, np.count_nonzero(self.operates & self.diverged), self.operates.sum()
+        soonest, count, total = soonest_divergence(self), np.count_nonzero(self.operates & self.diverged), self.operates.sum()
         if not count:
             return ""
         many = "every run" if count == total else f"{count} of {total} runs"
@@ -200,6 +193,13 @@ def peak_reach(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
     stepped = 2.0 * values[peaks] - beside
     reach[peaks] = np.where(np.maximum(before, after) > LEAST_STEP, resonance, stepped)
     return reach
+
+
+def soonest_divergence(evidence: Evidence) -> xr.Dataset:
+    """The run in operation that diverged soonest, of one speed; of none where none did."""
+    ended = evidence.response.isel(speed=np.flatnonzero(evidence.operates & evidence.diverged))
+    lasted = ended.get("diverged_revolution", ended["speed"]).values
+    return ended.isel(speed=np.argsort(np.nan_to_num(lasted, nan=np.inf), kind="stable")[:1])
 
 
 def beyond_model(evidence: Evidence) -> list[str]:

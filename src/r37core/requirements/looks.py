@@ -33,7 +33,7 @@ from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import numbers_of_run
 
 from .choice import CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements
-from .evidence import HALF_FRICTION, OF_ALL, Evidence, peak_reach
+from .evidence import HALF_FRICTION, OF_ALL, Evidence, peak_reach, soonest_divergence
 from .judging import (
     CLEARLY,
     COARSER_MESH,
@@ -195,7 +195,7 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
 
     What still fails at the worst speed is run at no other, but for a limit of a length. HALF_FRICTION where a run diverged.
     """
-    soonest = runs.soonest_divergence["speed"].values.tolist()
+    soonest = soonest_divergence(runs)["speed"].values.tolist()
     if soonest and (less := blade.scaled_friction(0.5)):
         yield HALF_FRICTION, blade.runs_from_rest(soonest, less)
     near, scene = nearness(requirements, runs)[runs.operates], blade.rising_scene
