@@ -42,11 +42,9 @@ class GridPoints:
         kind, origin, axes = self._frames[system]
         first, second, third = points.T
         if kind == "S":
-            polar = np.radians(second)
-            first, second, third = first * np.sin(polar), third, first * np.cos(polar)
+            first, second, third = first * np.sin(np.radians(second)), third, first * np.cos(np.radians(second))
         if kind != "R":
-            azimuth = np.radians(second)
-            first, second = first * np.cos(azimuth), first * np.sin(azimuth)
+            first, second = first * np.cos(np.radians(second)), first * np.sin(np.radians(second))
         return origin + np.stack([first, second, third], axis=1) @ axes
 
     def _frame(self, system: int) -> tuple[str, np.ndarray, np.ndarray]:
@@ -55,17 +53,17 @@ class GridPoints:
         name, numbers = self._definitions.pop(system, ("", np.empty(0)))
         if not name:
             raise ImportRefused(
-                f"coordinate system {system} of GRID is not defined, or by itself; allowed: CORD1R, CORD1C, CORD1S, CORD2R, "
-                "CORD2C, CORD2S, or grid points in the basic system"
+                f"coordinate system {system} of GRID is not defined, or by itself; allowed: CORD1 or CORD2 of kind R, C, S"
             )
         if name[4] == "2":
             corners = self._basic(int(numbers[0]), numbers[1:].reshape(3, 3))
         else:
-            unknown = 0, np.full((1, 3), np.nan)
-            corners = np.concatenate([self._basic(*self._places.get(number, unknown)) for number in numbers])
-        z, in_plane = corners[1:] - corners[0]
-        y = np.cross(z, in_plane)
-        if not np.linalg.norm(y) > 1e-9 * np.linalg.norm(z) * np.linalg.norm(in_plane):
+            corners = np.concatenate(
+                [self._basic(*self._places.get(number, (0, np.full((1, 3), np.nan)))) for number in numbers]
+            )
+        z, aside = corners[1:] - corners[0]
+        y = np.cross(z, aside)
+        if not np.linalg.norm(y) > 1e-9 * np.linalg.norm(z) * np.linalg.norm(aside):
             raise ImportRefused(f"coordinate system {system}: {name} needs three points of the file, not on one line")
         axes = np.stack([np.cross(y, z), y, z])
         return name[-1], corners[0], axes / np.linalg.norm(axes, axis=1)[:, None]
@@ -76,7 +74,5 @@ def _numbers(card: list[str], count: int) -> np.ndarray:
     cells = [*card[1:], *[""] * count][:count]
     numbers = np.array([bulk_number(cell or "0") for cell in cells])
     if wrong := [f"'{cell}'" for cell, number in zip(cells, numbers, strict=True) if not np.isfinite(number)]:
-        raise ImportRefused(
-            f"{card[0]} {card[1]}: found {', '.join(wrong)}; allowed: numbers within the columns of their fields"
-        )
+        raise ImportRefused(f"{card[0]} {card[1]}: found {', '.join(wrong)}; allowed: numbers, each within its field's columns")
     return numbers

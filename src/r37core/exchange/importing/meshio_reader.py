@@ -77,6 +77,8 @@ def quietly(read: Callable[[Any], Any], file: Path | io.StringIO) -> Any:
         cause = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
         if "Incompatible cell data 'gmsh:physical'" in str(error):
             cause = "some elements are in no physical group: give all volumes one, or write with Mesh.SaveAll = 0"
+        elif str(file).endswith(".msh"):
+            cause = "it is damaged, or has partitions or version 4.0: let gmsh write it with Mesh.MshFileVersion = 2.2"
         reason = " ".join(printed.getvalue().split()) or cause
         raise ImportRefused(f"the reader gave up: {reason}") from None
 
