@@ -414,7 +414,7 @@ def test_a_root_of_several_sets(deck):
     entry = OF_OURS | {"mesh": "mesh.inp", "tip": "tip", "sense_check": False}
     held = attempt(folder, entry | {"root": ["left", "RIGHT"]}).node_set("root")
     np.testing.assert_array_equal(held, root[np.abs(y) > 0.001])
-    with pytest.raises(ImportRefused, match="root: found no set 'UNDER'; the file has: .*, LEFT"):
+    with pytest.raises(ImportRefused, match=r"root: found no set 'UNDER'; the file has: .*, LEFT"):
         attempt(folder, entry | {"root": ["LEFT", "UNDER"]})
 
 

@@ -28,7 +28,7 @@ def read_matrix(file: Path) -> sp.csr_array:
     except ImportRefused as error:
         raise ImportRefused(f"{file.name}: {error}") from None
     except Exception as error:
-        raise ImportRefused(f"{file.name}: cannot be read as Matrix Market, or .npz of SciPy ({error})") from None
+        raise ImportRefused(f"{file.name}: cannot be read as a matrix of Matrix Market or SciPy ({error})") from None
     largest = abs(matrix).max() if matrix.nnz else 0.0
     if not 0.0 < largest < np.inf:
         raise ImportRefused(f"{file.name}: found a matrix of which all entries are 0, or some are no numbers; write it again")
