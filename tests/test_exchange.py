@@ -16,8 +16,10 @@ from scipy import constants
 from r37core.base.units import LENGTH_UNITS
 from r37core.config.imported_entry import LengthUnit
 from r37core.exchange.importing.abaqus_reader import read_abaqus
+from r37core.exchange.importing.bulk_data import bulk_cards
+from r37core.exchange.importing.coordinate_systems import GridPoints
 from r37core.exchange.importing.import_mesh import _READERS, import_mesh
-from r37core.exchange.importing.meshio_reader import quietly, read_with_meshio
+from r37core.exchange.importing.meshio_reader import quietly, read_nastran, read_with_meshio
 from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, mesh_files
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning, located
@@ -143,6 +145,85 @@ def test_files_written_by_gmsh(tmp_path, suffix):
     first, last = mesh.points[mesh.node_set("tip_pressure_edge")[[0, -1]]]
     np.testing.assert_allclose(first, [0.26, -0.002, 0.0], atol=1e-9)
     np.testing.assert_allclose(last, [0.26, -0.002, 0.03], atol=1e-9)
+
+
+SYSTEMS = """GRDSET,,3
+CORD2R,3,,0.,0.,100.,0.,0.,200.
+,0.,100.,100.
+CORD2C,5,3,10.,0.,0.,10.,0.,1.
+,11.,0.,0.
+GRID,101,5,0.,0.,0.
+GRID,102,5,0.,0.,1.
+GRID,103,5,1.,90.,0.
+CORD1S,7,101,102,103,8,101,102,103
+CORD1C,9,101,102,103
+CORD1R,10,101,102,103
+CORD2S,11,3,10.,0.,0.,10.,0.,1.
++,10.,1.,0.
+CORD2R,20,21,0.,0.,0.,0.,0.,1.
+,1.,0.,0.
+CORD2R,21,20,0.,0.,0.,0.,0.,1.
+,1.,0.,0.
+CORD2R,22,,0.,0.,0.,0.,0.,1.
+,0.,0.,3.
+CORD1R,23,101,102,1000
+"""
+"""System 3 has its x along y and its y against x, 100 above the origin; 5, 7 and 11 stand in it, 10 along its x."""
+
+
+@pytest.mark.parametrize(
+    ("system", "coordinates", "position"),
+    [
+        (0, (1.0, 2.0, 3.0), (1.0, 2.0, 3.0)),
+        (3, (1.0, 2.0, 3.0), (-2.0, 1.0, 103.0)),
+        ("", (1.0, 2.0, 3.0), (-2.0, 1.0, 103.0)),
+        (5, (2.0, 90.0, 5.0), (-2.0, 10.0, 105.0)),
+        (7, (2.0, 90.0, 90.0), (0.0, 8.0, 100.0)),
+        (8, (2.0, 0.0, 30.0), (0.0, 10.0, 102.0)),
+        (9, (2.0, 0.0, 4.0), (-2.0, 10.0, 104.0)),
+        (10, (1.0, 2.0, 3.0), (-1.0, 8.0, 103.0)),
+        (11, (2.0, 30.0, 0.0), (-1.0, 10.0, 100.0 + np.sqrt(3.0))),
+    ],
+)
+def test_grid_points_of_nastran_stand_in_the_basic_system(tmp_path, system, coordinates, position):
+    (tmp_path / "mesh.bdf").write_text(f"{SYSTEMS}GRID,1,{system},{','.join(map(str, coordinates))}\n")
+    grid = GridPoints(list(bulk_cards(tmp_path / "mesh.bdf")))
+    np.testing.assert_allclose(grid.positions[grid.labels == 1], [position], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("system", "message"),
+    [
+        (4, "coordinate system 4 of GRID is not defined"),
+        (20, "coordinate system 20 of GRID is not defined, or by itself; allowed: CORD1 or CORD2 of kind R, C, S"),
+        (22, "coordinate system 22: CORD2R needs three points of the file, not on one line"),
+        (23, "coordinate system 23: CORD1R needs three points"),
+        ("1 3", "GRID 1: found '1 3'; allowed: numbers, each within its field's columns"),
+    ],
+)
+def test_coordinate_systems_that_have_no_axes(tmp_path, system, message):
+    (tmp_path / "mesh.bdf").write_text(f"{SYSTEMS}GRID,1,{system},0.\n")
+    with pytest.raises(ImportRefused, match=message):
+        GridPoints(list(bulk_cards(tmp_path / "mesh.bdf")))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: re.sub(r"(?m)^\+.{7}", " " * 8, re.sub(r"(?m)(?<!E)\+\w* *$", "", text)),
+        lambda text: text.replace("ENDDATA", "END BULK"),
+        lambda text: "$ a comment\n" + text.lower().replace("\n", " $ another\n"),
+    ],
+)
+def test_bulk_data_as_other_programs_write_it(tmp_path, change):
+    """Continuation without marks, another end, small letters and comments."""
+    write_mesh(plate(), tmp_path / "mesh.bdf")
+    expected = read_nastran(tmp_path / "mesh.bdf")
+    text = change((tmp_path / "mesh.bdf").read_text())
+    (tmp_path / "other.bdf").write_text(text)
+    again = read_nastran(tmp_path / "other.bdf")
+    np.testing.assert_array_equal(again.points, expected.points)
+    np.testing.assert_array_equal(again.blocks["hexahedron20"], expected.blocks["hexahedron20"])
 
 
 @pytest.mark.parametrize("grouped", [False, True])

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from r37core.config.imported_entry import MeshEntry, SurfaceRule
 from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.import_mesh import import_mesh, size_in_words
+from r37core.exchange.importing.meshio_reader import read_with_meshio
 from r37core.exchange.importing.source import mesh_files
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning
@@ -68,7 +69,11 @@ def attempt(folder, entry):
         ({"rotation": "positive"}, r"side faces.*; and found the tip's leading edge at .* trailing edge", {"rotation", "tip"}),
         ({"rotor_axis": [-1.0, 0.0, 0.0]}, "pressure side that looks along the rotation and is convex", {"rotor_axis", "tip"}),
         ({"rotor_axis": [0.0, 0.0, 1.0]}, "no surface of revolution about the rotor axis", {"rotor_axis", "tip"}),
-        ({"radial": [0.0, 0.0, 1.0]}, "degrees round the axis from `radial`", {"radial", "tip"}),
+        (
+            {"radial": [0.0, 0.0, 1.0]},
+            r"degrees round the axis from `radial`.*; fitting: radial: \[0, 1, -0\.028\]",
+            {"radial", "tip"},
+        ),
         ({"length_unit": "m"}, r"fitting units: mm \(0\.07\d+ m\), cm", {"length_unit", "tip"}),
         ({"length_unit": "m", "root": "hub", "rotor_axis": [0.0, 0.0, 1.0]}, "length_unit m or rot", {"length_unit", "root"}),
     ],
@@ -303,14 +308,14 @@ def test_a_long_chain_of_included_files(deck):
         (lambda text: "", "GRID"),
         (lambda text: text[: len(text) // 10], "ENDDATA"),
         (lambda text: text[: 9 * len(text) // 10], "ENDDATA"),
-        (lambda text: text.replace("BEGIN BULK\n", "", 1) + "BEGIN BULK\n", "GRID after BEGIN BULK"),
+        (lambda text: text.replace("BEGIN BULK\n", "", 1) + "BEGIN BULK\n", "GRID"),
     ],
 )
 def test_bulk_data_that_is_cut_short_or_begins_after_its_end(tmp_path, change, lacking):
     """Without a card meshio waits for one for ever."""
     write_mesh(plate(), tmp_path / "mesh.bdf")
     (tmp_path / "mesh.bdf").write_text(change((tmp_path / "mesh.bdf").read_text()))
-    with pytest.raises(ImportRefused, match=rf"mesh\.bdf: found no {lacking}; the file is empty, cut short, or no bulk data"):
+    with pytest.raises(ImportRefused, match=rf"mesh\.bdf: found no {lacking} in its bulk data; the file is empty, cut short"):
         read(tmp_path, "mesh.bdf")
 
 
@@ -372,6 +377,78 @@ def test_what_gmsh_has_written_otherwise(tmp_path, options, grouped, said):
         gmsh.write(str(tmp_path / "boxes.msh"))
     with pytest.raises(ImportRefused, match=said):
         attempt(tmp_path, OF_OURS | {"mesh": "boxes.msh"})
+
+
+@pytest.mark.parametrize(
+    ("options", "partitions", "said"),
+    [({"Mesh.MshFileVersion": 4.0}, 0, None), ({}, 2, None), ({"Mesh.MshFileVersion": 2.2}, 2, "tetra10")],
+)
+def test_versions_and_partitions_of_gmsh(tmp_path, options, partitions, said):
+    """What meshio cannot read has a remedy, and the remedy works."""
+    with quiet_gmsh():
+        for name, value in options.items():
+            gmsh.option.setNumber(name, value)
+        gmsh.model.occ.addBox(0.0, 0.2, 0.0, 0.004, 0.05, 0.03)
+        gmsh.model.occ.synchronize()
+        gmsh.model.mesh.generate(3)
+        gmsh.model.mesh.setOrder(2)
+        if partitions:
+            gmsh.model.mesh.partition(partitions)
+        gmsh.write(str(tmp_path / "box.msh"))
+    if said:
+        assert list(read_with_meshio(tmp_path / "box.msh").blocks) == [said]
+    else:
+        with pytest.raises(
+            ImportRefused, match=r"^the reader gave up: it is damaged, .*: let gmsh write it with Mesh\.MshFile"
+        ):
+            read_with_meshio(tmp_path / "box.msh")
+
+
+def test_a_root_of_several_sets(deck):
+    """As the flanks of a fir tree: their nodes together, the mid-nodes of each; a set that is not there is named."""
+    mesh = plate()
+    root, y = mesh.node_set("root"), mesh.points[mesh.node_set("root"), 1]
+    sets = {"LEFT": root[y < -0.001], "RIGHT": root[y > 0.001]}
+    rows = "".join(f"*NSET, NSET={name}\n{', '.join(map(str, nodes + 1))}\n" for name, nodes in sets.items())
+    folder = deck(lambda text: text.replace("*MATERIAL", f"{rows}*MATERIAL", 1))
+    entry = OF_OURS | {"mesh": "mesh.inp", "tip": "tip", "sense_check": False}
+    held = attempt(folder, entry | {"root": ["left", "RIGHT"]}).node_set("root")
+    np.testing.assert_array_equal(held, root[np.abs(y) > 0.001])
+    with pytest.raises(ImportRefused, match=r"root: found no set 'UNDER'; the file has: .*, LEFT"):
+        attempt(folder, entry | {"root": ["LEFT", "UNDER"]})
+
+
+def test_the_tip_of_a_blade_on_a_platform_many_times_its_size(tmp_path):
+    """A plate of 2 mm on a foot with slanted flanks, cut by a cone: the tip's cone is proposed, not that of the platform."""
+    outline = [(180, 9), (188, 9), (194, 5), (197, 5), (197, 14), (200, 14)]
+    with quiet_gmsh():
+        occ = gmsh.model.occ
+        points = [occ.addPoint(x, y, -20) for x, y in (*outline, *((x, -y) for x, y in outline[::-1]))]
+        lines = [occ.addLine(*ends) for ends in zip(points, [*points[1:], points[0]], strict=True)]
+        foot = occ.extrude([(2, occ.addPlaneSurface([occ.addCurveLoop(lines)]))], 0, 0, 40)[1]
+        plate_, _ = occ.intersect([(3, occ.addBox(198, -1, -15, 60, 2, 30))], [(3, occ.addCone(0, 0, -30, 0, 0, 60, 252, 246))])
+        occ.fuse([foot], plate_)
+        occ.synchronize()
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 8)
+        gmsh.model.mesh.generate(3)
+        gmsh.model.mesh.setOrder(2)
+        gmsh.write(str(tmp_path / "foot.msh"))
+    with pytest.raises(ImportRefused) as refusal:
+        attempt(tmp_path, FOOTED | {"length_unit": "mm", "root": "?", "tip": "?"})
+    (z0, r0), (z1, r1) = yaml.safe_load(refusal.value.fitting["tip"])["cone_zr_m"]
+    assert (z0, r0, z1, r1) == pytest.approx((-0.015, 0.2505, 0.015, 0.2475), abs=2e-6)
+
+
+def test_a_tip_without_a_proposal_says_why(tmp_path):
+    """Of a plate with a notch in its tip: one cone catches two faces."""
+    mesh = plate()
+    middle = mesh.points[mesh.blocks["hexahedron20"]].mean(axis=1)
+    kept = mesh.blocks["hexahedron20"][~((middle[:, 0] > 0.25) & (np.abs(middle[:, 2] - 0.015) < 0.004))]
+    write_mesh(replace(mesh, blocks={"hexahedron20": kept}), tmp_path / "notch.vtu")
+    with pytest.raises(
+        ImportRefused, match=r"\n  # tip: no cone catches one whole face alone; give sets of the file, or limits"
+    ):
+        attempt(tmp_path, OF_OURS | {"mesh": "notch.vtu", "tip": "?", "drop_free_nodes": True, "sense_check": False})
 
 
 @pytest.fixture(scope="module")

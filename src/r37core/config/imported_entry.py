@@ -53,7 +53,7 @@ class SurfaceRule(Section):
         return si_form(Where, self, limits=self._limits())
 
 
-SetOrRule: Any = or_section(FileName, SurfaceRule)
+SetOrRule: Any = or_section(FileName, SurfaceRule, Annotated[list[FileName], Field(min_length=1)])
 
 
 _LEAST_METRES, _MOST_METRES = 1e-9, 1e3
@@ -103,7 +103,7 @@ class MeshEntry(Oriented):
 
     mesh: FileName = Field(description="Mesh file: .inp, .msh, .vtu, .med, .bdf, .nas, or .cdb with the package meshlane")
     material: MaterialSection
-    root: SetOrRule = Field(description="Clamped nodes: a set of the file (BOUNDARY: those of *BOUNDARY) or a rule")
+    root: SetOrRule = Field(description="Clamped nodes: sets of the file (BOUNDARY: those of *BOUNDARY) or a rule")
     tip: SetOrRule = Field(description="Faces towards the casing: a set of the file or a rule")
     pressure_side: Any = DECLARED
     revolution_tolerance_m: Any = DECLARED
@@ -146,4 +146,7 @@ class MatricesEntry(Oriented):
 
 
 def _where(rule: Any) -> Where:
-    return rule.where() if isinstance(rule, SurfaceRule) else Where(rule, tolerance=0.0)
+    if isinstance(rule, SurfaceRule):
+        return rule.where()
+    first, *further = [rule] if isinstance(rule, str) else rule
+    return Where(first, tuple(further), tolerance=0.0)

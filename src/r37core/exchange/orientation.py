@@ -156,9 +156,10 @@ class Orientation:
     def _check_side(self, points: np.ndarray, what: str) -> None:
         mean = points.mean(axis=0)
         if not mean[0] > _RADIAL_WITHIN * np.hypot(mean[0], mean[1]):
+            x, y, z = np.round(mean[:2] @ self.rows[:2] / np.hypot(mean[0], mean[1]), 3) + 0.0
             raise ImportRefused(
                 f"{what} lies at {np.degrees(np.arctan2(mean[1], mean[0])):.0f} degrees round the axis from "
-                "`radial`; rotor_axis, axis_point or radial does not fit the file",
+                f"`radial`; rotor_axis, axis_point or radial does not fit the file; fitting: radial: [{x:g}, {y:g}, {z:g}]",
                 "radial",
             )
 

@@ -52,7 +52,9 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
         return None
     areas = np.array([sizes[patch == number].sum() for number in numbers])
     heights = np.array([np.average(radius[patch == number], weights=sizes[patch == number]) for number in numbers])
-    large = areas >= _LARGE * areas.max()
+    # the top of a platform may be many times larger than the tip
+    near = (heights >= radius.max() - _BELOW * np.ptp(radius)) | (what == "root")
+    large = areas >= _LARGE * areas[near if near.any() else slice(None)].max()
     mask = patch == numbers[large][np.argmax(heights[large] if what == "tip" else -heights[large])]
     faces = chosen(surface, mask)
     nodes = nodes_of(faces)

@@ -1,7 +1,6 @@
 """The material that a mesh file has of its own: it is not used, and a remark names it where it differs from the blade's."""
 
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import astuple, dataclass
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import numpy as np
 
 from r37core.fem.material import Material
 
+from .bulk_data import bulk_cards, bulk_number
 from .deck_text import deck_lines, keyword_and_options
 from .source import DECK, kind_of, mesh_files
 
@@ -57,34 +57,15 @@ def _deck_material(file: Path) -> Iterator[FileMaterial]:
             keyword, _ = keyword_and_options(line)
             materials += [{}] if keyword == "MATERIAL" else []
         elif keyword in ("ELASTIC", "DENSITY"):
-            materials[-1].setdefault(keyword, _numbers(line.split(",")))
+            materials[-1].setdefault(keyword, list(map(bulk_number, line.split(","))))
     for known in filter(None, materials):
         modulus, ratio = [*known.get("ELASTIC", []), np.nan, np.nan][:2]
         yield FileMaterial(modulus, ratio, [*known.get("DENSITY", []), np.nan][0])
 
 
 def _bulk_material(file: Path) -> Iterator[FileMaterial]:
-    """Cards MAT1 of Nastran (MID, E, G, NU, RHO), with commas, in fields of 8 or, MAT1*, of 16 characters."""
-    lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
-    for line, following in zip(lines, [*lines[1:], ""], strict=True):
-        if not line.upper().startswith("MAT1"):
-            continue
-        width = 16 if line[4:5] == "*" else 8
-        if "," in line:
-            cells = line.split(",")[1:]
-        else:
-            cells = [line[first : first + width] for first in range(8, 72, width)]
-            cells += [following[8:24]] if width == 16 else []
-        _, modulus, _, ratio, density = _numbers([*cells, *[""] * 5][:5])
-        yield FileMaterial(modulus, ratio, density)
-
-
-def _numbers(cells: Sequence[str]) -> list[float]:
-    """Numbers of some cells, NaN for one that has none; Nastran may write 2.1+11."""
-    numbers = []
-    for cell in cells:
-        try:
-            numbers.append(float(re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", cell.strip().upper().replace("D", "E"))))
-        except ValueError:
-            numbers.append(np.nan)
-    return numbers
+    """Cards MAT1 of Nastran: MID, E, G, NU, RHO."""
+    for name, *fields in bulk_cards(file):
+        if name == "MAT1":
+            _, modulus, _, ratio, density = map(bulk_number, fields[:5])
+            yield FileMaterial(modulus, ratio, density)

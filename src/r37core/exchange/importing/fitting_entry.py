@@ -46,6 +46,8 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
         end = find_end(what, mesh.points, surface)
         if end is not None and not _catches(what, source, mesh, surface, end):
             entry[what] = end.rule.as_yaml()
+        if end is None and getattr(source, what).set_name == "?":
+            entry[f"# {what}"] = "no cone catches one whole face alone; give sets of the file, or limits such as r_at_most_m"
         if what == "tip" and end is not None:
             entry |= _tolerance_of_flat_tip(mesh.points[end.nodes], source.revolution_tolerance)
     platform = None if source.hub_zr else find_platform(mesh.points, surface)

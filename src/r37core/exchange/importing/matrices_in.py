@@ -252,7 +252,7 @@ def _fitted(speeds: np.ndarray, stiffness: list[sp.csr_array]) -> tuple[sp.csr_a
     if not residual <= _LINEAR:
         raise ImportRefused(
             f"the stiffness is not linear in the squared speed (the next term has {residual:.2g} of its size, "
-            f"allowed {_LINEAR:g}); give stiffnesses about one static state, of the linear theory"
+            f"allowed {_LINEAR:g}); give stiffnesses about one static state, of the linear theory, to twelve digits"
         )
     return rest, top, residual
 

@@ -28,13 +28,13 @@ def read_matrix(file: Path) -> sp.csr_array:
     except ImportRefused as error:
         raise ImportRefused(f"{file.name}: {error}") from None
     except Exception as error:
-        raise ImportRefused(f"{file.name}: cannot be read as a matrix ({type(error).__name__}: {error})") from None
+        raise ImportRefused(f"{file.name}: cannot be read as a matrix of Matrix Market or SciPy ({error})") from None
     largest = abs(matrix).max() if matrix.nnz else 0.0
     if not 0.0 < largest < np.inf:
         raise ImportRefused(f"{file.name}: found a matrix of which all entries are 0, or some are no numbers; write it again")
     if not abs(matrix - matrix.T).max() <= _SYMMETRIC * largest:
         raise ImportRefused(
-            f"{file.name}: found a matrix that is not symmetric; allowed: clamped, symmetric mass and stiffness"
+            f"{file.name}: found a matrix that is not symmetric; allowed: both triangles, or one with `symmetric` in the header"
         )
     return 0.5 * (matrix + matrix.T)
 

@@ -2,8 +2,6 @@
 
 import contextlib
 import io
-import re
-import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +13,8 @@ from meshio._mesh import topological_dimension
 from r37core.base.io import NO_ROOM
 from r37core.exchange.refusal import ImportRefused
 
+from .bulk_data import bulk_cards
+from .coordinate_systems import GridPoints
 from .raw_mesh import RawMesh, solid_blocks
 
 # meshio 5.3.5 knows the 15-node wedge in its formats but not here, and stops when a mesh has one
@@ -27,27 +27,27 @@ def read_with_meshio(file: Path) -> RawMesh:
 
 
 def read_nastran(file: Path) -> RawMesh:
-    """The mesh of a bulk data file, which may lack the line BEGIN BULK (gmsh writes none).
+    """The mesh of a bulk data file, in Nastran's basic coordinate system.
 
-    Raises ImportRefused for a file without nodes or without its end.
+    Raises ImportRefused for a file without nodes or without its end, and for coordinate systems that it lacks.
     """
-    text = file.read_text(encoding="utf-8", errors="replace")
-    begin = re.search(r"^[ \t]*BEGIN[ \t]+BULK.*$", text, re.MULTILINE | re.IGNORECASE)
-    bulk = text if begin is None else text[begin.end() :]
-    # meshio waits for ever for the first card and the end of a file without them
-    for card in ("GRID", "ENDDATA"):
-        line = re.compile(rf"^{card}", re.MULTILINE | re.IGNORECASE)
-        if not line.search(bulk):
-            after = " after BEGIN BULK" if line.search(text) else ""
-            raise ImportRefused(
-                f"found no {card}{after}; the file is empty, cut short, or no bulk data of Nastran: write it again"
-            )
-    if begin is not None:
-        return read_with_meshio(file)
-    with tempfile.TemporaryDirectory() as folder:
-        whole = Path(folder) / file.with_suffix(".bdf").name
-        whole.write_text("BEGIN BULK\n" + text, encoding="utf-8")
-        return read_with_meshio(whole)
+    cards = list(bulk_cards(file))
+    names = {card[0].partition(" ")[0] for card in cards}
+    if lacking := {"GRID", "ENDDATA"} - names:
+        raise ImportRefused(
+            f"found no {max(lacking)} in its bulk data; the file is empty, cut short, or no deck of Nastran: write it again"
+        )
+    if "INCLUDE" in names:
+        raise ImportRefused("found INCLUDE; write the deck as one file")
+    grid = GridPoints(cards)
+    numbered = zip(grid.labels, grid.positions.tolist(), strict=True)
+    points = [["GRID", str(label), "", *map(repr, point)] for label, point in numbered]
+    # with commas and marks, as meshio reads all of them
+    lines = [
+        f"{','.join(card[:9])}" + "".join(f"\n+,{','.join(card[i : i + 8])}" for i in range(9, len(card), 8))
+        for card in (["BEGIN BULK"], *points, *(card for card in cards if card[0] != "GRID"))
+    ]
+    return _raw(quietly(meshio.nastran.read, io.StringIO("\n".join([*lines, ""]))))
 
 
 def read_ansys(file: Path) -> RawMesh:
@@ -61,7 +61,7 @@ def read_ansys(file: Path) -> RawMesh:
     return _raw(quietly(meshlane.read, file))
 
 
-def quietly(read: Callable[[Path], Any], file: Path) -> Any:
+def quietly(read: Callable[[Any], Any], file: Path | io.StringIO) -> Any:
     """Result of `read` for the file, its prints kept back; ImportRefused for any error, and for an attempt to exit.
 
     That there is no room for a file is said by who writes it: see r37core.base.io.room_for.
@@ -77,6 +77,8 @@ def quietly(read: Callable[[Path], Any], file: Path) -> Any:
         cause = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
         if "Incompatible cell data 'gmsh:physical'" in str(error):
             cause = "some elements are in no physical group: give all volumes one, or write with Mesh.SaveAll = 0"
+        elif str(file).endswith(".msh"):
+            cause = "it is damaged, or has partitions or version 4.0: let gmsh write it with Mesh.MshFileVersion = 2.2"
         reason = " ".join(printed.getvalue().split()) or cause
         raise ImportRefused(f"the reader gave up: {reason}") from None
 

@@ -27,7 +27,7 @@ SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
 
 @dataclass(frozen=True)
 class Where:
-    """A part of the mesh: the nodes in the set `set_name`, or those that keep all the limits given.
+    """A part of the mesh: the nodes in the set `set_name` and in `further_sets`, or those that keep all the limits given.
 
     `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
     `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and
@@ -35,6 +35,7 @@ class Where:
     """
 
     set_name: str | None = None
+    further_sets: tuple[str, ...] = ()
     limits: tuple[tuple[str, str, float], ...] = ()
     cone_zr: Annotated[
         tuple[tuple[float, float], tuple[float, float]] | None,
@@ -46,7 +47,8 @@ class Where:
         """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
         if self.set_name is None:
             return self.within(mesh.points)
-        return _edge_nodes(what, self.set_name, mesh, _set_members(what, self.set_name, mesh))
+        sets = (self.set_name, *self.further_sets)
+        return np.any([_edge_nodes(what, name, mesh, _set_members(what, name, mesh)) for name in sets], axis=0)
 
     def within(self, points: np.ndarray) -> np.ndarray:
         """Mask over `points` (m), shape (n, 3), that keep limits and cone."""
@@ -70,7 +72,7 @@ class Where:
     def describe(self) -> str:
         """The rule in words."""
         if self.set_name is not None:
-            return f"the set '{self.set_name}'"
+            return "the set " + " and ".join(f"'{name}'" for name in (self.set_name, *self.further_sets))
         parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
         if self.cone_zr is not None:
             parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
