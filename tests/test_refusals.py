@@ -8,7 +8,7 @@ import pytest
 
 from r37core.base.io import TextFileError
 from r37core.base.speeds import exact_text
-from r37core.base.yaml_file import load_yaml
+from r37core.base.yaml_file import load_yaml, load_yaml_with_lines, yaml_text
 from r37core.config import ConfigError, Document, command_line_document
 from r37core.config.remarks import remarks_on_speeds
 from r37core.product.extensions import read_settings
@@ -339,8 +339,19 @@ def test_numbers_are_read_alike_everywhere_and_as_a_key_a_whole_one_is_its_text(
         load_yaml(file)
 
 
+def test_merged_mappings_give_what_a_mapping_does_not_have_itself(tmp_path):
+    file = tmp_path / "a.yaml"
+    file.write_text("a: &a {x: 1, y: 2}\nb: &b {y: 3, z: 4}\nc:\n  <<: [*a, *b]\n  x: 5\nd: {<<: *b, '<<': 6, v: <<}")
+    content, lines = load_yaml_with_lines(file)
+    assert content["c"] == {"x": 5, "y": 2, "z": 4} and content["d"] == {"y": 3, "z": 4, "<<": 6, "v": "<<"}
+    assert [lines["c", key] for key in "xyz"] == [5, 1, 2]
+    file.write_text(yaml_text(content))
+    assert load_yaml(file) == content
+
+
 ALIASES = ["a0: &a0 [1, 1]", *(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]" for i in range(1, 40))]
 ODD = dict.fromkeys(["a: [" * 2000, "a: \x07", "a: &a [*a]", "a: 1\n---\nb: 2", "a: !!python/name:os.x"])
+ODD |= {"a: {<<: 1}": "found '<<' with something else; allowed: a mapping", "a: &a {<<: *a, b: 1}\nc: {b: 1, b: 1}": "twice"}
 ODD |= {"\n".join(ALIASES): "more than 100000 values"}
 
 

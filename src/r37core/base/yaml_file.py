@@ -1,5 +1,7 @@
 """YAML as users expect it: 1e-1 is a number, 010 is ten, a key given twice is an error, and every key knows its line.
 
+A merged mapping (`<<: *anchor`) gives the keys that a mapping does not have itself.
+
 A whole number as a key is the text that stands there: `{ 1: 0.4 }` and `{ "1": 0.4 }` are the same.
 """
 
@@ -27,7 +29,7 @@ _FLOAT = re.compile(r"([-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?|[-+]?
 
 
 class _Loader(yaml.SafeLoader):
-    """Numbers as in YAML 1.2 and JSON (none octal, sexagesimal or with underscores), no dates, no merged mappings."""
+    """Numbers as in YAML 1.2 and JSON (none octal, sexagesimal or with underscores), and no dates."""
 
     def fetch_flow_collection_start(self, TokenClass: Any) -> None:
         if self.flow_level > _DEEPEST:
@@ -36,12 +38,14 @@ class _Loader(yaml.SafeLoader):
 
 
 _Loader.yaml_implicit_resolvers = {
-    first: [(tag, pattern) for tag, pattern in resolvers if tag.endswith((":bool", ":null"))]
+    first: [(tag, pattern) for tag, pattern in resolvers if tag.endswith((":bool", ":null", ":merge"))]
     for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
 }
 _Loader.add_implicit_resolver("tag:yaml.org,2002:int", _INTEGER, _DIGITS)
 _Loader.add_implicit_resolver("tag:yaml.org,2002:float", _FLOAT, _DIGITS)
 _Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
+_MERGE = "tag:yaml.org,2002:merge"
+_Loader.add_constructor(_MERGE, _Loader.construct_yaml_str)
 
 
 def _mapping(loader: _Loader, node: yaml.MappingNode) -> dict[Hashable, Any]:
@@ -54,8 +58,6 @@ def _mapping(loader: _Loader, node: yaml.MappingNode) -> dict[Hashable, Any]:
         if not isinstance(key, str):
             shown = key_node.value if isinstance(key_node, yaml.ScalarNode) else "?"
             raise _refusal(key_node, f"found the key '{shown}', which is {_kind(key)} in YAML; allowed: a name")
-        if key in content:
-            raise _refusal(key_node, f"the key '{key}' is given twice")
         content[key] = loader.construct_object(value, deep=True)
     return content
 
@@ -136,11 +138,31 @@ def _explained(error: yaml.MarkedYAMLError) -> tuple[int, str]:
     return (mark.line + 1 if mark else 1), f"not readable as YAML: {problem}"
 
 
+def _merge(node: yaml.MappingNode) -> None:
+    """Replace merged mappings in a mapping by their keys; each key stands there once, so that no alias multiplies itself."""
+    own: dict[str, tuple[yaml.Node, yaml.Node]] = {}
+    merged: list[yaml.Node] = []
+    for key, value in node.value:
+        if key.tag == _MERGE:
+            merged += value.value if isinstance(value, yaml.SequenceNode) else [value]
+        elif own.setdefault(str(key.value), (key, value)) != (key, value):
+            raise _refusal(key, f"the key '{key.value}' is given twice")
+    # before the others: a mapping may hold itself
+    node.value = list(own.values())
+    for source in merged:
+        if not isinstance(source, yaml.MappingNode):
+            raise _refusal(source, "found '<<' with something else; allowed: a mapping or a list of mappings, as in <<: *name")
+        _merge(source)
+        own = {str(pair[0].value): pair for pair in source.value} | own
+    node.value = list(own.values())
+
+
 def _note_lines(node: yaml.Node, path: KeyPath, lines: dict[KeyPath, int]) -> None:
     if len(lines) > _LARGEST:
         raise _refusal(node, f"more than {_LARGEST} values")
     lines.setdefault(path, node.start_mark.line + 1)
     if isinstance(node, yaml.MappingNode):
+        _merge(node)
         for key, value in node.value:
             inner = (*path, str(key.value))
             lines[inner] = key.start_mark.line + 1
