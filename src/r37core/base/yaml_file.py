@@ -38,14 +38,12 @@ class _Loader(yaml.SafeLoader):
 
 
 _Loader.yaml_implicit_resolvers = {
-    first: [(tag, pattern) for tag, pattern in resolvers if tag.endswith((":bool", ":null", ":merge"))]
+    first: [(tag, pattern) for tag, pattern in resolvers if tag.endswith((":bool", ":null"))]
     for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
 }
 _Loader.add_implicit_resolver("tag:yaml.org,2002:int", _INTEGER, _DIGITS)
 _Loader.add_implicit_resolver("tag:yaml.org,2002:float", _FLOAT, _DIGITS)
 _Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
-_MERGE = "tag:yaml.org,2002:merge"
-_Loader.add_constructor(_MERGE, _Loader.construct_yaml_str)
 
 
 def _mapping(loader: _Loader, node: yaml.MappingNode) -> dict[Hashable, Any]:
@@ -90,7 +88,7 @@ def load_yaml_with_lines(file: Path) -> tuple[Any, dict[KeyPath, int]]:
         node = loader.get_single_node()
         if node is None:
             raise TextFileError(1, "the file is empty")
-        _note_lines(node, (), lines)
+        _note_lines(loader, node, (), lines)
         return loader.construct_document(node), lines
     except yaml.reader.ReaderError as error:
         line = text.count("\n", 0, error.position) + 1
@@ -138,35 +136,32 @@ def _explained(error: yaml.MarkedYAMLError) -> tuple[int, str]:
     return (mark.line + 1 if mark else 1), f"not readable as YAML: {problem}"
 
 
-def _merge(node: yaml.MappingNode) -> None:
-    """Replace merged mappings in a mapping by their keys; each key stands there once, so that no alias multiplies itself."""
-    own: dict[str, tuple[yaml.Node, yaml.Node]] = {}
-    merged: list[yaml.Node] = []
-    for key, value in node.value:
-        if key.tag == _MERGE:
-            merged += value.value if isinstance(value, yaml.SequenceNode) else [value]
-        elif own.setdefault(str(key.value), (key, value)) != (key, value):
-            raise _refusal(key, f"the key '{key.value}' is given twice")
-    # before the others: a mapping may hold itself
-    node.value = list(own.values())
-    for source in merged:
-        if not isinstance(source, yaml.MappingNode):
-            raise _refusal(source, "found '<<' with something else; allowed: a mapping or a list of mappings, as in <<: *name")
-        _merge(source)
-        own = {str(pair[0].value): pair for pair in source.value} | own
-    node.value = list(own.values())
-
-
-def _note_lines(node: yaml.Node, path: KeyPath, lines: dict[KeyPath, int]) -> None:
+def _note_lines(loader: _Loader, node: yaml.Node, path: KeyPath, lines: dict[KeyPath, int]) -> None:
+    """Put the lines of the values in a node into `lines`, and the keys of merged mappings into its mappings."""
     if len(lines) > _LARGEST:
         raise _refusal(node, f"more than {_LARGEST} values")
     lines.setdefault(path, node.start_mark.line + 1)
     if isinstance(node, yaml.MappingNode):
-        _merge(node)
+        _merge(loader, node)
         for key, value in node.value:
             inner = (*path, str(key.value))
             lines[inner] = key.start_mark.line + 1
-            _note_lines(value, inner, lines)
+            _note_lines(loader, value, inner, lines)
     elif isinstance(node, yaml.SequenceNode):
         for number, value in enumerate(node.value):
-            _note_lines(value, (*path, number), lines)
+            _note_lines(loader, value, (*path, number), lines)
+
+
+def _merge(loader: _Loader, node: yaml.MappingNode) -> None:
+    given: set[str] = set()
+    for key, value in node.value:
+        if key.value == "<<" and key.style is None:
+            key.tag = "tag:yaml.org,2002:merge"
+            # has each key once before it is merged: no alias multiplies itself
+            _note_lines(loader, value, (), {})
+        elif str(key.value) in given:
+            raise _refusal(key, f"the key '{key.value}' is given twice")
+        else:
+            given.add(str(key.value))
+    loader.flatten_mapping(node)
+    node.value = list({str(key.value): (key, value) for key, value in node.value}.values())

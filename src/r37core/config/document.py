@@ -209,19 +209,22 @@ def chain_of_bases(
     return chain
 
 
-def complete_scenes(scenes: Document, above: Document | None = None) -> tuple[Document, ConfigRefusals]:
-    """Scenes that are complete: what an entry leaves out is that of its base, key by key also inside sections.
+def complete_entries(
+    document: Document, above: Document | None, kind: str, keys: Collection[str] = ("base",)
+) -> tuple[Document, ConfigRefusals]:
+    """Entries of a `kind` that are complete: what one leaves out is that of its base, key by key also inside sections.
 
     A key that is null is left out although the base has it. `above`: changes of some entries, which others that start from them
-    do not have. An entry whose base is not there, or in a circle, is left out and refused.
+    do not have. An entry without any of the `keys` stays as it is; one whose base is not there, or in a circle, is left out and
+    refused.
     """
-    changed, refusals = scenes.overlaid(above) if above else scenes, ConfigRefusals()
-    below, entries = _mappings(scenes.content), _mappings(changed.content)
-    bases_below, bases = _bases(below), _bases(entries)
+    changed, refusals = document.overlaid(above) if above else document, ConfigRefusals()
+    below, entries = entries_of(document), entries_of(changed)
+    bases_below, bases = _bases(below), _bases({name: entry for name, entry in entries.items() if entry.keys() & set(keys)})
     known = [name for name, entry in below.items() if not entry.keys() & set(FAMILY_KEYS)]
     content, sources = dict(changed.content) if bases else changed.content, {}
     for name, base in bases.items():
-        chain = refusals.of(chain_of_bases, name, {**bases_below, name: base}.get, known, changed, "scene")
+        chain = refusals.of(chain_of_bases, name, {**bases_below, name: base}.get, known, changed, kind)
         if chain is None:
             del content[name]
         else:
@@ -230,9 +233,9 @@ def complete_scenes(scenes: Document, above: Document | None = None) -> tuple[Do
     return replace(changed, content=content, sources=sources), refusals
 
 
-def _mappings(content: Any) -> dict[str, Mapping[str, Any]]:
+def entries_of(document: Document) -> dict[str, Mapping[str, Any]]:
     """Entries of a file as far as they are mappings."""
-    every = content.items() if isinstance(content, Mapping) else ()
+    every = document.content.items() if isinstance(document.content, Mapping) else ()
     return {name: entry for name, entry in every if isinstance(entry, Mapping)}
 
 

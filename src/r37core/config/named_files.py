@@ -1,0 +1,45 @@
+"""Files that configuration files name.
+
+A name starts from the folder of its own file or, where nothing is there, from the folder above that has `config/`.
+"""
+
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from .sections_entry import ASKED, OWN
+
+OF_CONFIG = ("blades_file", "fidelity_file", "scenes_file")
+TABLES, IMPORTED = ("profiles", "stacking_table", "designs"), ("mesh", "matrices", "sections")
+"""Keys of blades with tables, and with files of other programs, which may be large or belong to others."""
+
+
+def file_keys(entry: Mapping[str, Any]) -> list[str]:
+    """Keys of a blade's entry with names of files; hub and tip of sections may be files, the tip of a mesh is a set."""
+    ends = [key for key in ("hub", "tip") if "sections" in entry and entry.get(key) not in (OWN, ASKED)]
+    return [key for key in (*TABLES, *IMPORTED, *ends) if isinstance(entry.get(key), str)]
+
+
+def study_folder(file: Path) -> Path:
+    """The nearest folder above a file that has a folder `config`, or without one the file's own."""
+    return next((folder for folder in file.parents if (folder / "config").is_dir()), file.parent)
+
+
+def named_file(name: str, file: Path, root: Path | None = None) -> str:
+    """The file that a name in `file` stands for, as seen from the folder `root` if it lies there; without that absolute.
+
+    `root` is looked into last. Of a file that is nowhere it is the first place in a folder that is there.
+    """
+    places = [folder / name for folder in (file.parent, study_folder(file), root or file.parent)]
+    there = [place for place in places if os.path.exists(place)] or [place for place in places if place.parent.is_dir()]
+    found = (there or places)[0]
+    if root is None:
+        return str(found)
+    return name if found == root / name else str(found.relative_to(root) if found.is_relative_to(root) else found)
+
+
+def with_files_found(content: Any, keys: Iterable[str], file: Path, root: Path | None) -> Any:
+    """The content of `file`, or an entry of it, with the files under some keys as `named_file` has them."""
+    names = {key: content[key] for key in keys if isinstance(content.get(key), str)}
+    return content | {key: named_file(name, file, root) for key, name in names.items() if name.strip() and name.isprintable()}
