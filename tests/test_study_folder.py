@@ -3,7 +3,8 @@
 import shutil
 
 import pytest
-from workflow_runs import copy_project, edit, planned, snakemake
+from test_refusals import edit
+from workflow_runs import copy_project, planned, snakemake
 
 import r37
 from r37 import ConfigError
@@ -65,7 +66,7 @@ def test_names_in_a_file_start_from_its_folder_or_that_of_the_study(root, tmp_pa
     edit(own / "blades.yaml", "fan.msh", "fun.msh")
     assert main(["check", "assess.yaml"]) == 1
     assert capsys.readouterr().err.endswith("blades.yaml:3: Fan.mesh: there is no file own/fan/fun.msh\n")
-    edit(own / "assess.yaml", f"{prefix}blades", "none")
+    edit(own / "assess.yaml", f"{prefix}blades.yaml", "none.yaml")
     with pytest.raises(ConfigError, match=r"^own/fan/none\.yaml: there is no such file"):
         settings_of_run(study, [own / "assess.yaml"], {})
 
@@ -112,4 +113,7 @@ def test_a_study_has_rules_of_its_own_and_changes_on_top(study):
 def test_a_folder_without_a_configuration_is_refused(study):
     (study / "config/config.yaml").unlink()
     told = snakemake(study, "-n", check=False)
-    assert "config/config.yaml: there is no such file in" in told and "`r37 init FOLDER` writes a folder that has one" in told
+    assert (
+        "config/config.yaml: there is no such file in" in told
+        and "`r37 init FOLDER` writes a folder that has all files" in told
+    )

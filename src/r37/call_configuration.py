@@ -9,7 +9,7 @@ from typing import Any, Self
 from r37core.config import ConfigError, Document, command_line_document
 from r37core.config.config_file import Config
 from r37core.config.messages import single_line
-from r37core.config.named_files import OF_CONFIG, named_file, study_folder
+from r37core.config.named_files import CONFIG_FILES, named_file, study_folder
 from r37core.config.reading import CONFIG_FILE, configuration_file, together
 from r37core.product.extensions import CONFIG
 
@@ -37,10 +37,7 @@ class Configuration:
         return self.document.check(CONFIG)
 
     def changed_file(self, key: str, file: Path | str | None) -> Self:
-        """Configuration with another file, if any, under `blades_file` or `scenes_file`.
-
-        Raises ConfigError.
-        """
+        """Configuration with another file, if any, under `blades_file` or `scenes_file`. Raises ConfigError."""
         if file is None:
             return self
         path = existing_file("file", file, "a file that is there").absolute()
@@ -53,7 +50,6 @@ def read_configuration(file: Path | str | None = None) -> Configuration:
     A file that leaves out what is required lies on that of its study, as in the workflow. Raises ConfigError for a file that
     cannot be read, or that has no keys.
     """
-    # of the repository, to which the package has a link, or its copy in the installed package
     path = _PACKAGE / CONFIG_FILE
     if file is not None:
         path = existing_file("config", file, "a config.yaml, or none for the shipped one").absolute()
@@ -61,7 +57,7 @@ def read_configuration(file: Path | str | None = None) -> Configuration:
     fields = Config.model_fields
     if study != path and any(field.is_required() and key not in document.content for key, field in fields.items()):
         return read_configuration(study if study.is_file() else None).changed_by([path])
-    files = {key: named_file(fields[key].default, path) for key in OF_CONFIG}
+    files = {key: named_file(fields[key].default, path) for key in CONFIG_FILES}
     return Configuration(replace(document, content={**files, **document.content}))
 
 

@@ -1,7 +1,5 @@
 """YAML as users expect it: 1e-1 is a number, 010 is ten, a key given twice is an error, and every key knows its line.
 
-A merged mapping (`<<: *anchor`) gives the keys that a mapping does not have itself.
-
 A whole number as a key is the text that stands there: `{ 1: 0.4 }` and `{ "1": 0.4 }` are the same.
 """
 
@@ -29,7 +27,7 @@ _FLOAT = re.compile(r"([-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?|[-+]?
 
 
 class _Loader(yaml.SafeLoader):
-    """Numbers as in YAML 1.2 and JSON (none octal, sexagesimal or with underscores), and no dates."""
+    """Numbers as in YAML 1.2 and JSON (none octal, sexagesimal or with underscores), no dates; mappings merged by <<."""
 
     def fetch_flow_collection_start(self, TokenClass: Any) -> None:
         if self.flow_level > _DEEPEST:

@@ -127,7 +127,8 @@ def read_document(root: Path, name: str) -> Document:
     except TextFileError as error:
         raise ConfigError(f"{name}:{error.line}: {error.reason}") from None
     except FileNotFoundError:
-        raise ConfigError(f"{name}: there is no such file; check the keys ..._file in config.yaml") from None
+        remedy = "check the keys ..._file in config.yaml; `r37 init FOLDER` writes a folder that has all files"
+        raise ConfigError(f"{name}: there is no such file in {root}; {remedy}") from None
     except OSError as error:
         raise ConfigError(f"{name}: cannot be read: {error.strerror}") from None
     return Document(name, content, {path: f"{name}:{line}" for path, line in lines.items()})
@@ -209,14 +210,11 @@ def chain_of_bases(
     return chain
 
 
-def complete_entries(
-    document: Document, above: Document | None, kind: str, keys: Collection[str] = ("base",)
-) -> tuple[Document, ConfigRefusals]:
-    """Entries of a `kind` that are complete: what one leaves out is that of its base, key by key also inside sections.
+def completed(document: Document, above: Document | None, kind: str, keys: Collection[str]) -> tuple[Document, ConfigRefusals]:
+    """Entries of a `kind`, those with one of the `keys` with what they leave out from their base, key by key also in sections.
 
     A key that is null is left out although the base has it. `above`: changes of some entries, which others that start from them
-    do not have. An entry without any of the `keys` stays as it is; one whose base is not there, or in a circle, is left out and
-    refused.
+    do not have. An entry whose base is not there, or in a circle, is left out and refused.
     """
     changed, refusals = document.overlaid(above) if above else document, ConfigRefusals()
     below, entries = entries_of(document), entries_of(changed)

@@ -10,7 +10,7 @@ from typing import Any
 
 from .sections_entry import ASKED, OWN
 
-OF_CONFIG = ("blades_file", "fidelity_file", "scenes_file")
+CONFIG_FILES = ("blades_file", "fidelity_file", "scenes_file")
 TABLES, IMPORTED = ("profiles", "stacking_table", "designs"), ("mesh", "matrices", "sections")
 """Keys of blades with tables, and with files of other programs, which may be large or belong to others."""
 
@@ -27,19 +27,17 @@ def study_folder(file: Path) -> Path:
 
 
 def named_file(name: str, file: Path, root: Path | None = None) -> str:
-    """The file that a name in `file` stands for, as seen from the folder `root` if it lies there; without that absolute.
-
-    `root` is looked into last. Of a file that is nowhere it is the first place in a folder that is there.
-    """
+    """The file that a name in `file` stands for, as seen from `root`, the last folder looked into; without that absolute."""
     places = [folder / name for folder in (file.parent, study_folder(file), root or file.parent)]
-    there = [place for place in places if os.path.exists(place)] or [place for place in places if place.parent.is_dir()]
-    found = (there or places)[0]
+    there = [place for place in places if os.path.exists(place)]
+    # one that is nowhere is missed where its folder is
+    found = [*there, *(place for place in places if place.parent.is_dir()), *places][0]
     if root is None:
         return str(found)
     return name if found == root / name else str(found.relative_to(root) if found.is_relative_to(root) else found)
 
 
-def with_files_found(content: Any, keys: Iterable[str], file: Path, root: Path | None) -> Any:
+def located_files(content: Any, keys: Iterable[str], file: Path, root: Path | None) -> Any:
     """The content of `file`, or an entry of it, with the files under some keys as `named_file` has them."""
     names = {key: content[key] for key in keys if isinstance(content.get(key), str)}
     return content | {key: named_file(name, file, root) for key, name in names.items() if name.strip() and name.isprintable()}

@@ -7,10 +7,10 @@ from typing import Any
 
 from .blades import Blades
 from .config_file import Config
-from .document import ConfigError, ConfigRefusals, Document, command_line_document, complete_entries, entries_of, read_document
+from .document import ConfigError, ConfigRefusals, Document, command_line_document, completed, entries_of, read_document
 from .families import Designs, expanded_families
 from .fidelity import Level, Levels
-from .named_files import IMPORTED, OF_CONFIG, file_keys, with_files_found
+from .named_files import CONFIG_FILES, IMPORTED, file_keys, located_files
 from .scenes import SceneEntry, checked_scenes
 from .settings import Documents, Settings
 from .speed_section import UNITS
@@ -44,7 +44,7 @@ class Reader:
         """
         here = Path.cwd()
         folder = here if (here / CONFIG_FILE).exists() else root
-        first = [] if only_given and files else [_configuration(folder, root)]
+        first = [] if only_given and files else [configuration_file(folder, CONFIG_FILE, root)]
         named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
         changes = [*first, *(configuration_file(here, str(file), root) for file in named), command_line_document(values)]
         if module_values:
@@ -97,11 +97,9 @@ def _levels(root: Path, name: str) -> tuple[Document, dict[str, Level]]:
 def blades_document(root: Path, name: str, above: Document | None = None) -> Document:
     """The file of blades `name`, with changes `above`, and files of entries as seen from `root`. Raises ConfigError."""
     document = read_document(root, name)
-    document, refusals = complete_entries(document.overlaid(above) if above else document, None, "blade", IMPORTED)
+    document, refusals = completed(document.overlaid(above) if above else document, None, "blade", IMPORTED)
     refusals.tell()
-    found = {
-        blade: with_files_found(entry, file_keys(entry), root / name, root) for blade, entry in entries_of(document).items()
-    }
+    found = {key: located_files(entry, file_keys(entry), root / name, root) for key, entry in entries_of(document).items()}
     return replace(document, content={**document.content, **found} if found else document.content)
 
 
@@ -117,20 +115,11 @@ def _scenes(root: Path, name: str, above: Document | None) -> Designs[SceneEntry
 
 
 def configuration_file(folder: Path, name: str, root: Path | None = None) -> Document:
-    """A file with keys of config.yaml, in a folder, with the files that it names as seen from `root`, or absolute.
-
-    Raises ConfigError for a file that cannot be read, or has no keys.
-    """
+    """A file with keys of config.yaml, and the files that it names as seen from `root`, or absolute. Raises ConfigError."""
     document = read_document(folder, name)
     if not isinstance(document.content, dict):
         raise document.refusal((), repr(document.content)[:60], "keys and values, as in config/config.yaml")
-    return replace(document, content=with_files_found(document.content, OF_CONFIG, folder / name, root))
-
-
-def _configuration(folder: Path, root: Path) -> Document:
-    if not (folder / CONFIG_FILE).exists():
-        raise ConfigError(f"{CONFIG_FILE}: there is no such file in {folder}; `r37 init FOLDER` writes a folder that has one")
-    return configuration_file(folder, CONFIG_FILE, root)
+    return replace(document, content=located_files(document.content, CONFIG_FILES, folder / name, root))
 
 
 def together(below: Document, changes: Iterable[Document]) -> Document:

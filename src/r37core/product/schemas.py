@@ -26,13 +26,13 @@ _ON_BASE = "OnBase"
 def schemas() -> dict[str, str]:
     """File name -> content. `changes` is for files that lie on top of config.yaml, where nothing is required."""
     made = {name: model.model_json_schema() for name, model in MODELS.items()}
-    made |= {name: _on_bases(made[name]) for name in ("blades", "scenes")}
+    made |= {name: _based_entries(made[name]) for name in ("blades", "scenes")}
     made["changes"] = {key: value for key, value in made["config"].items() if key != "required"}
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     return {f"{name}.schema.json": json.dumps(dialect | made[name], indent=1, ensure_ascii=False) + "\n" for name in made}
 
 
-def _on_bases(schema: dict[str, Any]) -> dict[str, Any]:
+def _based_entries(schema: dict[str, Any]) -> dict[str, Any]:
     """The schema of entries by name, where one with a `base` needs no key, and null leaves out what the base has."""
     ((name, entry),) = schema["patternProperties"].items()
     either = {"if": {"required": ["base"]}, "then": _based(entry), "else": entry}
