@@ -151,15 +151,15 @@ def _note_lines(loader: _Loader, node: yaml.Node, path: KeyPath, lines: dict[Key
 
 
 def _merge(loader: _Loader, node: yaml.MappingNode) -> None:
-    given: set[str] = set()
+    names: set[str] = set()
     for key, value in node.value:
         if key.value == "<<" and key.style is None:
             key.tag = "tag:yaml.org,2002:merge"
             # has each key once before it is merged: no alias multiplies itself
             _note_lines(loader, value, (), {})
-        elif str(key.value) in given:
+        elif str(key.value) in names:
             raise _refusal(key, f"the key '{key.value}' is given twice")
         else:
-            given.add(str(key.value))
+            names.add(str(key.value))
     loader.flatten_mapping(node)
     node.value = list({str(key.value): (key, value) for key, value in node.value}.values())

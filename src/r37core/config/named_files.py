@@ -31,10 +31,10 @@ def named_file(name: str, file: Path, root: Path | None = None) -> str:
     places = [folder / name for folder in (file.parent, study_folder(file), root or file.parent)]
     there = [place for place in places if os.path.exists(place)]
     # one that is nowhere is missed where its folder is
-    found = [*there, *(place for place in places if place.parent.is_dir()), *places][0]
+    path = [*there, *(place for place in places if place.parent.is_dir()), places[1]][0]
     if root is None:
-        return str(found)
-    return name if found == root / name else str(found.relative_to(root) if found.is_relative_to(root) else found)
+        return str(path)
+    return name if path == root / name else str(path.relative_to(root) if path.is_relative_to(root) else path)
 
 
 def located_files(content: Any, keys: Iterable[str], file: Path, root: Path | None) -> Any:

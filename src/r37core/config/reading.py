@@ -99,8 +99,8 @@ def blades_document(root: Path, name: str, above: Document | None = None) -> Doc
     document = read_document(root, name)
     document, refusals = completed(document.overlaid(above) if above else document, None, "blade", IMPORTED)
     refusals.tell()
-    found = {key: located_files(entry, file_keys(entry), root / name, root) for key, entry in entries_of(document).items()}
-    return replace(document, content={**document.content, **found} if found else document.content)
+    located = {key: located_files(entry, file_keys(entry), root / name, root) for key, entry in entries_of(document).items()}
+    return replace(document, content={**document.content, **located} if located else document.content)
 
 
 def blades_of_file(root: Path, name: str, above: Document | None = None) -> Designs[Any]:
