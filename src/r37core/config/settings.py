@@ -35,7 +35,6 @@ T = TypeVar("T")
 _OF_MESHES = ("stress", "static_stress", "fatigue", "shapes")
 """Results that blades of matrices do not have."""
 
-
 FARTHEST = 2.0
 """Largest ratio of a speed to structure.maximum_speed_rad_s: rpm taken for rad/s are above it, of speeds from 21% on."""
 
