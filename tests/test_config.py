@@ -265,7 +265,7 @@ def test_a_table_that_many_blades_share_is_told_of_once(config_copy):
     assert "rotor37.csv:6" in line or "line 6" in line
     edit(config_copy / "config/profiles/rotor37.csv", "abc", "58.470")
     (line,) = told(config_copy)
-    assert "Other.stacking_table: there is no file none.csv" in line
+    assert "Other.stacking_table: there is no file config/none.csv" in line
 
 
 def test_not_more_is_told_than_anybody_reads(config_copy):

@@ -58,6 +58,23 @@ def settings_with(config_copy):
     return read
 
 
+def test_a_mesh_has_what_it_leaves_out_from_its_base(settings_with, config_copy):
+    """Also key by key inside sections."""
+    (config_copy / "meshes/other.inp").write_text("*NODE\n1, 0, 0, 0\n")
+    other = {"base": "Fan", "mesh": "meshes/other.inp", "material": {"density_kg_m3": 4500.0}, "root": "foot"}
+    blades = settings_with(MESH, {"Other": other}, blades=("Fan", "Other")).blades
+    own, base = blades["Other"], blades["Fan"]
+    definition = replace(
+        base.definition, file="meshes/other.inp", root=Where("foot", tolerance=0.0), digest=own.definition.digest
+    )
+    assert own.definition == definition and own.definition.digest != base.definition.digest
+    assert own.material == replace(base.material, density=4500.0)
+    wrong = (config_copy / "config/blades.yaml").read_text().replace("base: Fan", "base: Fun")
+    (config_copy / "config/blades.yaml").write_text(wrong)
+    with pytest.raises(ConfigError, match=r"Other\.base: found 'Fun'; allowed: another blade .*did you mean Fan"):
+        read_settings(config_copy)
+
+
 @pytest.mark.parametrize(
     ("entry", "config", "signals", "modes"),
     [
@@ -152,7 +169,7 @@ def test_a_mesh_with_another_material(settings_with):
         ({"length_unit": 0}, r"Fan\.length_unit: found 0; allowed: one of .* or number, at least 1e-09, at most 1000"),
         ({"rotation": "clockwise"}, r"Fan\.rotation: found 'clockwise'; allowed: one of positive, negative"),
         ({"rotoraxis": [1, 0, 0]}, r"Fan: found unknown key rotoraxis; .*did you mean rotor_axis"),
-        ({"profiles": "a.csv"}, r"Fan: found unknown key profiles; allowed keys: length_unit, "),
+        ({"profiles": "a.csv"}, r"Fan: found unknown key profiles; allowed keys: base, length_unit, "),
         ({"material": {"density_kg_m3": 4430.0}}, r"Fan\.material: missing key youngs_modulus_pa, poissons_ratio, yield_"),
         ({"material": MATERIAL | {"youngs_modulus_pa": 1.15e6}}, r"Fan\.material: .* Units seem to be mixed: give Pa and"),
         ({"stress_regions": {"tip": {"minimum_z_m": 1, "maximum_z_m": 0}}}, r"Fan\..*\.minimum_z_m: found 1; allowed: less"),

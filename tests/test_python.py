@@ -11,6 +11,7 @@ import tarfile
 import tomllib
 import venv
 from pathlib import Path
+from typing import Any, get_args, get_type_hints
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -103,6 +104,14 @@ def test_a_changed_entry_is_the_one_that_an_edited_file_has(root, config_copy):
     file.write_text(file.read_text().replace(old, f"{old} material: {{ yield_stress_pa: 1.0e+9 }}, sweep_percent: 50,"))
     assert changed.settings == read_settings(config_copy).blades["L50"]
     assert changed.settings == r37.blade("L50", file=file).settings
+
+
+@pytest.mark.parametrize("call", [r37.blade, r37.scene])
+def test_changes_of_any_type_pass_a_type_checker(call):
+    """It holds what `**` unpacks against all names."""
+    named = {name: kind for name, kind in get_type_hints(call).items() if name not in ("name_of_entry", "return")}
+    assert named.keys() == {"name", "file", "config", "changes"}
+    assert all(kind is Any or Any in get_args(kind) for kind in named.values())
 
 
 def test_files_of_ones_own_may_lie_anywhere(root, tmp_path):

@@ -173,15 +173,22 @@ def test_a_material_of_other_units_is_told(finished, monkeypatch, key, value, to
         r37.simulate(r37.blade("Ref", **{f"material.{key}": value}), "abradable", 1500)
 
 
-def test_rpm_taken_for_rad_s_are_told(finished, monkeypatch):
+def test_rpm_taken_for_rad_s_are_refused():
+    """The remedy is named where the number may be in rpm."""
+    found = r"found 17188 rad/s; allowed: up to 4000 rad/s, 2 times structure\.maximum_speed_rad_s"
+    with pytest.raises(r37.ConfigError, match=f"speeds: {found}; rpm stand under speeds_rpm$"):
+        r37.simulate("Ref", "abradable", 17188)
+    with pytest.raises(r37.ConfigError, match=f"speeds_rpm: {found.replace('17188', '6283.19')}; rpm"):
+        r37.sweep("Ref", "abradable", speeds_rpm=[60000])
+
+
+def test_speeds_beyond_the_models_are_told(finished, monkeypatch):
     """Before anything is computed."""
     monkeypatch.setattr("r37.simulations.Calculation", None)
-    told = r"speeds: up to 16234 rad/s, and structure.maximum_speed_rad_s is 2000: .*; speeds in rpm stand under speeds_rpm"
+    told = "speeds: up to 3141.59 rad/s, and structure.maximum_speed_rad_s is 2000: .*raise it to what is run$"
     with pytest.warns(UserWarning, match=told) as warned, pytest.raises(TypeError):
-        r37.simulate("Ref", "abradable", 16234)
-    assert warned[0].filename == __file__
-    with pytest.warns(UserWarning, match="raise it to what is run$"), pytest.raises(TypeError):
         r37.sweep("Ref", "abradable", speeds_rpm=[30000])
+    assert warned[0].filename == __file__
 
 
 @pytest.mark.parametrize(

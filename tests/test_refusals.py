@@ -8,7 +8,7 @@ import pytest
 
 from r37core.base.io import TextFileError
 from r37core.base.speeds import exact_text
-from r37core.base.yaml_file import load_yaml
+from r37core.base.yaml_file import load_yaml, load_yaml_with_lines, yaml_text
 from r37core.config import ConfigError, Document, command_line_document
 from r37core.config.remarks import remarks_on_speeds
 from r37core.product.extensions import read_settings
@@ -167,7 +167,7 @@ BLADE_REFUSALS = [
     ('"A\\n": {base: Ref}', r"A\\n: found 'A\\n'; allowed: a name of letters"),
     ("figures: {base: Ref}", r"figures: found the blade 'figures'; allowed: another name"),
     ("ref: {base: Ref}", r"ref: found 'ref' beside 'Ref'; allowed: names that differ in more than capitals"),
-    ("X: {base: Ref, stacking_table: .}", r"X\.stacking_table: \. cannot be read: Is a directory"),
+    ("X: {base: Ref, stacking_table: .}", r"X\.stacking_table: config cannot be read: Is a directory"),
     ("X: {base: Ref, profiles: a.csv}", r"X: found both profiles and base; allowed: one of them"),
     (
         "X: {base: Ref, vary: {sweep_percent: {start: 0, stop: 10, step: 1e12}}}",
@@ -279,7 +279,7 @@ def test_texts_that_are_not_utf8(config_copy, name):
         (("# one\n# größe\n" + text).encode("latin-1"), "2: found the byte 0xf6, which is not UTF-8"),
         (text.encode("utf-16"), "1: found the byte 0xff, which is not UTF-8"),
         (b"", "1: the file is empty"),
-        (b"[1, 2]\n", r"1: top level: found \[1, 2\]; allowed: (mapping|object)"),
+        (b"[1, 2]\n", r"1: top level: found \[1, 2\]; allowed: (mapping|keys and values)"),
     ):
         file.write_bytes(content)
         with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:{message}"):
@@ -339,8 +339,19 @@ def test_numbers_are_read_alike_everywhere_and_as_a_key_a_whole_one_is_its_text(
         load_yaml(file)
 
 
+def test_merged_mappings_give_what_a_mapping_does_not_have_itself(tmp_path):
+    file = tmp_path / "a.yaml"
+    file.write_text("a: &a {x: 1, y: 2}\nb: &b {y: 3, z: 4}\nc:\n  <<: [*a, *b]\n  x: 5\nd: {<<: *b, '<<': 6, v: <<}")
+    content, lines = load_yaml_with_lines(file)
+    assert content["c"] == {"x": 5, "y": 2, "z": 4} and content["d"] == {"y": 3, "z": 4, "<<": 6, "v": "<<"}
+    assert [lines["c", key] for key in "xyz"] == [5, 1, 2]
+    file.write_text(yaml_text(content))
+    assert load_yaml(file) == content
+
+
 ALIASES = ["a0: &a0 [1, 1]", *(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]" for i in range(1, 40))]
 ODD = dict.fromkeys(["a: [" * 2000, "a: \x07", "a: &a [*a]", "a: 1\n---\nb: 2", "a: !!python/name:os.x"])
+ODD |= {"a: {<<: 1}": "expected a mapping or list of mappings for merging", "a: &a {<<: *a, b: 1}": "nested too deeply"}
 ODD |= {"\n".join(ALIASES): "more than 100000 values"}
 
 

@@ -1,11 +1,16 @@
 """A folder of one's own: `r37 init` writes it, and its Snakefile has the workflow as a module."""
 
+import shutil
+
 import pytest
+from test_refusals import edit
 from workflow_runs import copy_project, planned, snakemake
 
+import r37
 from r37 import ConfigError
 from r37.command import main
 from r37.study_folder import init
+from r37core.product.extensions import settings_of_run
 
 ASKED = ("results/rms.nc", "--config", "blades=[Ref]", "speeds=[900, 1200]")
 """So much of a sweep for dry runs."""
@@ -43,6 +48,27 @@ def test_init_writes_what_is_shipped(root, tmp_path, capsys):
     told = capsys.readouterr().out
     assert "simulations: 28\ntheir CPU time: about 2.8 s at most" in told
     assert "speeds: up to 2500 rad/s, and structure.maximum_speed_rad_s is 2000" in told
+
+
+@pytest.mark.parametrize("prefix", ["", "own/fan/"])
+def test_names_in_a_file_start_from_its_folder_or_that_of_the_study(root, tmp_path, monkeypatch, capsys, prefix):
+    """In the workflow, the command and Python, from any folder; a message has the path that was tried."""
+    study = init(tmp_path / "study")
+    own = shutil.copytree(root / "examples/fan", study / "own/fan")
+    edit(own / "blades.yaml", "mesh: fan.msh", f"mesh: {prefix}fan.msh")
+    edit(own / "assess.yaml", "blades_file: blades.yaml", f"blades_file: {prefix}blades.yaml")
+    for folder, asked in ((study, "own/fan/assess.yaml"), (tmp_path, "study/own/fan/assess.yaml"), (own, "assess.yaml")):
+        monkeypatch.chdir(folder)
+        blade = settings_of_run(study, [own / "assess.yaml"], {}).blades["Fan"]
+        assert blade.definition.file == "own/fan/fan.msh"
+        assert main(["check", asked]) == 0 and "blades: Fan\n" in capsys.readouterr().out
+        assert blade == r37.blade("Fan", file=own / "blades.yaml").settings == r37.blade("Fan", config=asked).settings
+    edit(own / "blades.yaml", "fan.msh", "fun.msh")
+    assert main(["check", "assess.yaml"]) == 1
+    assert capsys.readouterr().err.endswith("blades.yaml:3: Fan.mesh: there is no file own/fan/fun.msh\n")
+    edit(own / "assess.yaml", f"{prefix}blades.yaml", "none.yaml")
+    with pytest.raises(ConfigError, match=r"^own/fan/none\.yaml: there is no such file"):
+        settings_of_run(study, [own / "assess.yaml"], {})
 
 
 def test_init_replaces_nothing(tmp_path, capsys):
@@ -87,4 +113,7 @@ def test_a_study_has_rules_of_its_own_and_changes_on_top(study):
 def test_a_folder_without_a_configuration_is_refused(study):
     (study / "config/config.yaml").unlink()
     told = snakemake(study, "-n", check=False)
-    assert "config/config.yaml: there is no such file in" in told and "`r37 init FOLDER` writes a folder that has one" in told
+    assert (
+        "config/config.yaml: there is no such file in" in told
+        and "`r37 init FOLDER` writes a folder that has all files" in told
+    )

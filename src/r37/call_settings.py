@@ -58,7 +58,7 @@ class Call:
     @cached_property
     def settings(self) -> Settings:
         """Checked settings; a message names the call as its place. Raises ConfigError."""
-        keys, below = dict(self.keys), self.configuration.document
+        keys, below = dict(self.keys), self.base.document
         for kind, choices in (("blades", self.blades), ("scenes", self.scenes)):
             if choices:
                 keys |= {kind: [choice.name for choice in choices], f"{kind}_file": _one_file(kind, choices)}
@@ -67,12 +67,7 @@ class Call:
         locations = {path: line for path, line in below.locations.items() if not path or path[0] not in left_out}
         document = replace(below, content=content, locations=locations).overlaid(command_line_document(keys, self.name))
         changes = {"blades_above": above(self.blades), "scenes_above": above(self.scenes)}
-        return _READER.load_settings(document, self.configuration.root, **changes)
-
-    @property
-    def configuration(self) -> Configuration:
-        """The configuration below the keys; names of files in it start from the folder that those of the blades start from."""
-        return Configuration(self.base.document, self.blades[0].configuration.root) if self.blades else self.base
+        return _READER.load_settings(document, Configuration(document).root, **changes)
 
     @property
     def told(self) -> dict[str, str]:

@@ -230,9 +230,10 @@ def blade(
     name_of_entry: str,
     /,
     *,
-    name: str | None = None,
-    file: Path | str | None = None,
-    config: Path | str | None = None,
+    # a type checker holds the value of `**{"lining.thickness_m": 0.003}` against these, too
+    name: str | Any = None,
+    file: Path | str | Any = None,
+    config: Path | str | Any = None,
     **changes: Any,
 ) -> BladeChoice:
     """A blade of blades.yaml, as it is there or with changed values.
@@ -267,9 +268,9 @@ def scene(
     name_of_entry: str,
     /,
     *,
-    name: str | None = None,
-    file: Path | str | None = None,
-    config: Path | str | None = None,
+    name: str | Any = None,
+    file: Path | str | Any = None,
+    config: Path | str | Any = None,
     **changes: Any,
 ) -> SceneChoice:
     """A scene of scenes.yaml, as it is there or with changed values.

@@ -10,7 +10,9 @@ from typing import Any
 
 from r37core.base.io import write_text
 from r37core.base.yaml_file import yaml_text
-from r37core.config import ConfigError, read_document
+from r37core.config import ConfigError
+from r37core.config.named_files import TABLES, file_keys
+from r37core.config.reading import blades_document
 from r37core.config.section import Without
 
 from .call_settings import Call, above
@@ -19,9 +21,6 @@ from .study_folder import add_workflow
 _CONFIG = "config/config.yaml"
 
 _HEADER = "# Written by a call of r37; `snakemake tables --cores 2` in this folder runs the same.\n"
-
-_TABLES, _IMPORTED = ("profiles", "stacking_table", "designs"), ("mesh", "matrices", "sections")
-"""Keys of blades.yaml with a table, which the folder gets a copy of, and with files that are too large or belong to others."""
 
 
 def run_folder(folder: Path | str) -> Path:
@@ -43,11 +42,9 @@ def run_folder(folder: Path | str) -> Path:
 
 def write_run(call: Call, folder: Path) -> None:
     """Write all that a call asks for as the files of a study; files that have not changed stay as they are."""
-    settings, root = call.settings, call.configuration.root
+    settings, root = call.settings, call.settings.root
     documents, config = settings.documents, dict(settings.documents.config.content)
-    blades = read_document(root, settings.config.blades_file)
-    changes = above(call.blades)
-    blades = blades.overlaid(changes) if changes else blades
+    blades = blades_document(root, settings.config.blades_file, above(call.blades))
     tables: dict[str, Path] = {}
     files = {
         "blades": {name: _local_entry(entry, root, tables) for name, entry in blades.content.items()},
@@ -68,20 +65,16 @@ def write_run(call: Call, folder: Path) -> None:
 def _local_entry(entry: Mapping[str, Any], root: Path, tables: dict[str, Path]) -> dict[str, Any]:
     """An entry of blades.yaml whose files are found from the folder of the run; `tables` gets those that are copied there."""
     changed = dict(entry)
-    # hub and tip of sections may be files, those of a mesh are names of sets
-    ends = [key for key in ("hub", "tip") if "sections" in entry and isinstance(entry.get(key), str)]
-    ends = [key for key in ends if (root / entry[key]).is_file()]
-    for key in (*_TABLES, *_IMPORTED, *ends):
-        if isinstance(entry.get(key), str):
-            name, source = Path(entry[key]), (root / entry[key]).absolute()
-            if key not in _TABLES or not source.is_file():
-                changed[key] = str(source)
-            else:
-                if name.is_absolute() or ".." in name.parts:
-                    names = (Path(f"config/tables/{'_' * more}{source.name}") for more in count())
-                    name = next(name for name in names if tables.get(str(name), source) == source)
-                changed[key] = str(name)
-                tables[str(name)] = source
+    for key in file_keys(entry):
+        name, source = Path(entry[key]), (root / entry[key]).absolute()
+        if key not in TABLES or not source.is_file():
+            changed[key] = str(source)
+        else:
+            if name.is_absolute() or ".." in name.parts:
+                names = (Path(f"config/tables/{'_' * more}{source.name}") for more in count())
+                name = next(name for name in names if tables.get(str(name), source) == source)
+            changed[key] = str(name)
+            tables[str(name)] = source
     return changed
 
 

@@ -27,7 +27,7 @@ _FLOAT = re.compile(r"([-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?|[-+]?
 
 
 class _Loader(yaml.SafeLoader):
-    """Numbers as in YAML 1.2 and JSON (none octal, sexagesimal or with underscores), no dates, no merged mappings."""
+    """Numbers as in YAML 1.2 and JSON (none octal, sexagesimal or with underscores), no dates; mappings merged by <<."""
 
     def fetch_flow_collection_start(self, TokenClass: Any) -> None:
         if self.flow_level > _DEEPEST:
@@ -54,8 +54,6 @@ def _mapping(loader: _Loader, node: yaml.MappingNode) -> dict[Hashable, Any]:
         if not isinstance(key, str):
             shown = key_node.value if isinstance(key_node, yaml.ScalarNode) else "?"
             raise _refusal(key_node, f"found the key '{shown}', which is {_kind(key)} in YAML; allowed: a name")
-        if key in content:
-            raise _refusal(key_node, f"the key '{key}' is given twice")
         content[key] = loader.construct_object(value, deep=True)
     return content
 
@@ -88,7 +86,7 @@ def load_yaml_with_lines(file: Path) -> tuple[Any, dict[KeyPath, int]]:
         node = loader.get_single_node()
         if node is None:
             raise TextFileError(1, "the file is empty")
-        _note_lines(node, (), lines)
+        _note_lines(loader, node, (), lines)
         return loader.construct_document(node), lines
     except yaml.reader.ReaderError as error:
         line = text.count("\n", 0, error.position) + 1
@@ -136,15 +134,32 @@ def _explained(error: yaml.MarkedYAMLError) -> tuple[int, str]:
     return (mark.line + 1 if mark else 1), f"not readable as YAML: {problem}"
 
 
-def _note_lines(node: yaml.Node, path: KeyPath, lines: dict[KeyPath, int]) -> None:
+def _note_lines(loader: _Loader, node: yaml.Node, path: KeyPath, lines: dict[KeyPath, int]) -> None:
+    """Put the lines of the values in a node into `lines`, and the keys of merged mappings into its mappings."""
     if len(lines) > _LARGEST:
         raise _refusal(node, f"more than {_LARGEST} values")
     lines.setdefault(path, node.start_mark.line + 1)
     if isinstance(node, yaml.MappingNode):
+        _merge(loader, node)
         for key, value in node.value:
             inner = (*path, str(key.value))
             lines[inner] = key.start_mark.line + 1
-            _note_lines(value, inner, lines)
+            _note_lines(loader, value, inner, lines)
     elif isinstance(node, yaml.SequenceNode):
         for number, value in enumerate(node.value):
-            _note_lines(value, (*path, number), lines)
+            _note_lines(loader, value, (*path, number), lines)
+
+
+def _merge(loader: _Loader, node: yaml.MappingNode) -> None:
+    names: set[str] = set()
+    for key, value in node.value:
+        if key.value == "<<" and key.style is None:
+            key.tag = "tag:yaml.org,2002:merge"
+            # has each key once before it is merged: no alias multiplies itself
+            _note_lines(loader, value, (), {})
+        elif str(key.value) in names:
+            raise _refusal(key, f"the key '{key.value}' is given twice")
+        else:
+            names.add(str(key.value))
+    loader.flatten_mapping(node)
+    node.value = list({str(key.value): (key, value) for key, value in node.value}.values())

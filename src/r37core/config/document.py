@@ -127,7 +127,8 @@ def read_document(root: Path, name: str) -> Document:
     except TextFileError as error:
         raise ConfigError(f"{name}:{error.line}: {error.reason}") from None
     except FileNotFoundError:
-        raise ConfigError(f"{name}: there is no such file; check the keys ..._file in config.yaml") from None
+        remedy = "check the keys ..._file in config.yaml; `r37 init FOLDER` writes a folder that has all files"
+        raise ConfigError(f"{name}: there is no such file in {root}; {remedy}") from None
     except OSError as error:
         raise ConfigError(f"{name}: cannot be read: {error.strerror}") from None
     return Document(name, content, {path: f"{name}:{line}" for path, line in lines.items()})
@@ -209,19 +210,19 @@ def chain_of_bases(
     return chain
 
 
-def complete_scenes(scenes: Document, above: Document | None = None) -> tuple[Document, ConfigRefusals]:
-    """Scenes that are complete: what an entry leaves out is that of its base, key by key also inside sections.
+def completed(document: Document, above: Document | None, kind: str, keys: Collection[str]) -> tuple[Document, ConfigRefusals]:
+    """Entries of a `kind`, those with one of the `keys` with what they leave out from their base, key by key also in sections.
 
     A key that is null is left out although the base has it. `above`: changes of some entries, which others that start from them
     do not have. An entry whose base is not there, or in a circle, is left out and refused.
     """
-    changed, refusals = scenes.overlaid(above) if above else scenes, ConfigRefusals()
-    below, entries = _mappings(scenes.content), _mappings(changed.content)
-    bases_below, bases = _bases(below), _bases(entries)
+    changed, refusals = document.overlaid(above) if above else document, ConfigRefusals()
+    below, entries = entries_of(document), entries_of(changed)
+    bases_below, bases = _bases(below), _bases({name: entry for name, entry in entries.items() if entry.keys() & set(keys)})
     known = [name for name, entry in below.items() if not entry.keys() & set(FAMILY_KEYS)]
     content, sources = dict(changed.content) if bases else changed.content, {}
     for name, base in bases.items():
-        chain = refusals.of(chain_of_bases, name, {**bases_below, name: base}.get, known, changed, "scene")
+        chain = refusals.of(chain_of_bases, name, {**bases_below, name: base}.get, known, changed, kind)
         if chain is None:
             del content[name]
         else:
@@ -230,9 +231,9 @@ def complete_scenes(scenes: Document, above: Document | None = None) -> tuple[Do
     return replace(changed, content=content, sources=sources), refusals
 
 
-def _mappings(content: Any) -> dict[str, Mapping[str, Any]]:
+def entries_of(document: Document) -> dict[str, Mapping[str, Any]]:
     """Entries of a file as far as they are mappings."""
-    every = content.items() if isinstance(content, Mapping) else ()
+    every = document.content.items() if isinstance(document.content, Mapping) else ()
     return {name: entry for name, entry in every if isinstance(entry, Mapping)}
 
 

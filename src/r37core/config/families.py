@@ -19,6 +19,7 @@ from .changed_numbers import MATERIAL_KEYS, ImpossibleValueError, entry_with
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .messages import did_you_mean, single_line
+from .named_files import named_file
 from .scenes import SceneEntry
 from .section import check_name, check_names, plain
 from .sections_entry import SectionsEntry
@@ -127,7 +128,8 @@ def _kind(entry: Any) -> str:
 
 
 def _family(name: str, entry: Any, root: Path, document: Document) -> Family:
-    if (file := entry.designs) is not None:
+    if entry.designs is not None:
+        file = named_file(entry.designs, root / document.name, root)
         with readable_table(file, (name, "designs"), document):
             try:
                 keys, table_designs = read_designs(root / file, _kind(entry))

@@ -18,7 +18,7 @@ from .blade_sections import (
     refuse_taken_names,
 )
 from .declaring import DECLARED, declared_by, si_form
-from .section import ByName, FileName, LeftOut, Section, left_out, or_section, refused
+from .section import ByName, FileName, LeftOut, Name, Section, left_out, or_section, refused
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
 Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
@@ -83,6 +83,7 @@ LengthUnit = Annotated[
 class Oriented(Section):
     """How a file of another program describes space."""
 
+    base: Name | LeftOut = left_out("Blade that gives what is left out")
     length_unit: LengthUnit = Field(description="Unit of the coordinates, or its length in metres, also as a quotient: 1/2540")
     rotor_axis: Any = DECLARED
     radial: Any = DECLARED

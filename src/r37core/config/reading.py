@@ -7,9 +7,10 @@ from typing import Any
 
 from .blades import Blades
 from .config_file import Config
-from .document import ConfigError, ConfigRefusals, Document, command_line_document, read_document
+from .document import ConfigError, ConfigRefusals, Document, command_line_document, completed, entries_of, read_document
 from .families import Designs, expanded_families
 from .fidelity import Level, Levels
+from .named_files import CONFIG_FILES, IMPORTED, file_keys, located_files
 from .scenes import SceneEntry, checked_scenes
 from .settings import Documents, Settings
 from .speed_section import UNITS
@@ -26,7 +27,7 @@ class Reader:
 
     def read_settings(self, root: Path, *changes: Document) -> Settings:
         """Settings of config/config.yaml in the folder `root`, with `changes` on top. Raises ConfigError."""
-        return self.load_settings(together(read_document(root, CONFIG_FILE), changes), root)
+        return self.load_settings(together(configuration_file(root, CONFIG_FILE, root), changes), root)
 
     def settings_of_run(
         self,
@@ -43,9 +44,9 @@ class Reader:
         """
         here = Path.cwd()
         folder = here if (here / CONFIG_FILE).exists() else root
-        first = [] if only_given and files else [_configuration(folder)]
+        first = [] if only_given and files else [configuration_file(folder, CONFIG_FILE, root)]
         named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
-        changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
+        changes = [*first, *(configuration_file(here, str(file), root) for file in named), command_line_document(values)]
         if module_values:
             place = "config of the module r37"
             if not isinstance(module_values, Mapping):
@@ -61,7 +62,7 @@ class Reader:
         blades_above: Document | None = None,
         scenes_above: Document | None = None,
     ) -> Settings:
-        """Check a configuration (the content of config.yaml) and the files it names, relative to the folder `root`.
+        """Check a configuration (the content of config.yaml) and the files it names, as seen from the folder `root`.
 
         `blades_above`, `scenes_above`: changes that lie on top of these two files. Raises ConfigError before any work is done,
         with all that is wrong in the files or, where these are right by themselves, with all that is wrong with them together.
@@ -93,10 +94,18 @@ def _levels(root: Path, name: str) -> tuple[Document, dict[str, Level]]:
     return document, document.check(Levels).root
 
 
-def blades_of_file(root: Path, name: str, above: Document | None = None) -> Designs[Any]:
-    """Blades of the file `name`, with changes `above`; names in it start from the folder `root`. Raises ConfigError."""
+def blades_document(root: Path, name: str, above: Document | None = None) -> Document:
+    """The file of blades `name`, with changes `above`, and files of entries as seen from `root`. Raises ConfigError."""
     document = read_document(root, name)
-    document = document.overlaid(above) if above else document
+    document, refusals = completed(document.overlaid(above) if above else document, None, "blade", IMPORTED)
+    refusals.tell()
+    located = {key: located_files(entry, file_keys(entry), root / name, root) for key, entry in entries_of(document).items()}
+    return replace(document, content={**document.content, **located} if located else document.content)
+
+
+def blades_of_file(root: Path, name: str, above: Document | None = None) -> Designs[Any]:
+    """Blades of the file `name`, whose name starts from the folder `root`, with changes `above`. Raises ConfigError."""
+    document = blades_document(root, name, above)
     return expanded_families(document.check(Blades).root, root, document)
 
 
@@ -105,17 +114,17 @@ def _scenes(root: Path, name: str, above: Document | None) -> Designs[SceneEntry
     return expanded_families(entries, root, document)
 
 
-def _configuration(folder: Path) -> Document:
-    if not (folder / CONFIG_FILE).exists():
-        raise ConfigError(f"{CONFIG_FILE}: there is no such file in {folder}; `r37 init FOLDER` writes a folder that has one")
-    return read_document(folder, CONFIG_FILE)
+def configuration_file(folder: Path, name: str, root: Path | None = None) -> Document:
+    """A file with keys of config.yaml, and the files that it names as seen from `root`, or absolute. Raises ConfigError."""
+    document = read_document(folder, name)
+    if not isinstance(document.content, dict):
+        raise document.refusal((), repr(document.content)[:60], "keys and values, as in config/config.yaml")
+    return replace(document, content=located_files(document.content, CONFIG_FILES, folder / name, root))
 
 
 def together(below: Document, changes: Iterable[Document]) -> Document:
-    """A configuration with `changes` on top, each on those before it. Raises ConfigError for one without keys."""
+    """A configuration with `changes` on top, each on those before it."""
     for change in changes:
-        if not isinstance(change.content, Mapping):
-            raise change.refusal((), repr(change.content)[:60], "keys and values, as in config/config.yaml")
         below = _single_unit(below, change).overlaid(change)
     return below
 

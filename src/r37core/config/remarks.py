@@ -54,7 +54,7 @@ def remarks_on_input(settings: Settings, changed: Collection[str] = ()) -> list[
 
 
 def remarks_on_speeds(settings: Settings) -> list[str]:
-    """Remarks on speeds at which a run takes long, and on those beyond what models are made for: they may be rpm."""
+    """Remarks on speeds at which a run takes long, and on those beyond what models are made for."""
     lines = []
     run = max((length_of_run(settings, *slowest) for slowest in slowest_speeds(settings).items()), key=lambda run: run.steps)
     if run.cpu_time >= LONG_RUN:
@@ -62,10 +62,9 @@ def remarks_on_speeds(settings: Settings) -> list[str]:
     fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
     highest = settings.structure.maximum_speed_rad_s
     if fastest > highest:
-        rpm_hint = "" if settings.config.speeds_rpm else "; speeds in rpm stand under speeds_rpm"
         lines.append(
             f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
-            f"Campbell diagrams are made for speeds up to that; raise it to what is run{rpm_hint}"
+            f"Campbell diagrams are made for speeds up to that; raise it to what is run"
         )
     return lines
 

@@ -10,7 +10,7 @@ from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
 from .casing_section import CasingSection
 from .declaring import DECLARED, declared_by, si_fields, si_form
-from .document import ConfigRefusals, Document, complete_scenes
+from .document import ConfigRefusals, Document, completed
 from .rotor_section import RotorSection
 from .section import ByName, LeftOut, Name, Rpm, Section, Speed, left_out, or_section, refused
 from .speed_section import refuse_both_units
@@ -191,7 +191,7 @@ def checked_scenes(file: Document, above: Document | None = None) -> tuple[Docum
 
     Raises ConfigError for all that is wrong.
     """
-    document, refused_bases = complete_scenes(file, above)
+    document, refused_bases = completed(file, above, "scene", ("base",))
     refusals = ConfigRefusals()
     # of a file in which all have such bases nothing is left
     checked = refusals.of(document.check, Scenes) if document.content or not file.content else None

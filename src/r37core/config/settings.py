@@ -35,6 +35,9 @@ T = TypeVar("T")
 _OF_MESHES = ("stress", "static_stress", "fatigue", "shapes")
 """Results that blades of matrices do not have."""
 
+FARTHEST = 2.0
+"""Largest ratio of a speed to structure.maximum_speed_rad_s: rpm taken for rad/s are above it, of speeds from 21% on."""
+
 
 def results_folder(run: str | None) -> Path:
     """Folder of the results of a run with this name, or without one."""
@@ -151,10 +154,9 @@ class Settings:
     @cached_property
     def speed_plans(self) -> dict[tuple[str, str], SpeedPlan]:
         """Speeds of each blade and scene: of the first rule that fits. Raises ConfigError for speeds that clash."""
-        step, document = self.fidelity.time_integration.speed_step_rad_s, self.documents.config
         sections = [(("speeds_for", number), rule) for number, rule in enumerate(self.config.speeds_for)]
         refusals = ConfigRefusals()
-        general, *special = (refusals.of(_planned, document, *section, step) for section in [((), self.config), *sections])
+        general, *special = (refusals.of(_planned, self, *section) for section in [((), self.config), *sections])
         refusals.tell()
         assert general
         plans = {(blade, scene): general for blade in self.blade_names for scene in self.scene_names}
@@ -225,14 +227,19 @@ class Settings:
         )
 
 
-def _planned(document: Document, path: KeyPath, section: Config | SpeedRule, step: float) -> SpeedPlan:
-    """The speeds of a section at `path`, whose ranges have the `step` (rad/s) where they give none. Raises ConfigError."""
-    key = key_of_speeds(section)
+def _planned(settings: Settings, path: KeyPath, section: Config | SpeedRule) -> SpeedPlan:
+    """The speeds of a section at `path`, whose ranges have the level's step where they give none. Raises ConfigError."""
+    key, document = key_of_speeds(section), settings.documents.config
     entries = [plain(entry) if isinstance(entry, SpeedRange) else entry for entry in getattr(section, key)]
     try:
-        return plan_speeds(entries, step, UNITS[key])
+        plan = plan_speeds(entries, settings.fidelity.time_integration.speed_step_rad_s, UNITS[key])
     except SpeedError as error:
         raise document.error((*path, key), str(error)) from None
+    fastest, highest = plan.every_speed()[-1], FARTHEST * settings.structure.maximum_speed_rad_s
+    if fastest > highest:
+        allowed = f"up to {highest:g} rad/s, {FARTHEST:g} times structure.maximum_speed_rad_s; rpm stand under speeds_rpm"
+        raise document.refusal((*path, key), f"{fastest:g} rad/s", allowed)
+    return plan
 
 
 def _chosen(settings: Settings, key: str, designs: Designs[Any]) -> list[str]:

@@ -26,18 +26,18 @@ _ON_BASE = "OnBase"
 def schemas() -> dict[str, str]:
     """File name -> content. `changes` is for files that lie on top of config.yaml, where nothing is required."""
     made = {name: model.model_json_schema() for name, model in MODELS.items()}
-    made["scenes"] = _scenes_schema(made["scenes"])
+    made |= {name: _based_entries(made[name]) for name in ("blades", "scenes")}
     made["changes"] = {key: value for key, value in made["config"].items() if key != "required"}
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     return {f"{name}.schema.json": json.dumps(dialect | made[name], indent=1, ensure_ascii=False) + "\n" for name in made}
 
 
-def _scenes_schema(schema: dict[str, Any]) -> dict[str, Any]:
-    """The schema of scenes, where an entry with a `base` needs no key, and null leaves out what the base has."""
+def _based_entries(schema: dict[str, Any]) -> dict[str, Any]:
+    """The schema of entries by name, where one with a `base` needs no key, and null leaves out what the base has."""
     ((name, entry),) = schema["patternProperties"].items()
-    scene = {"if": {"required": ["base"]}, "then": _based(entry), "else": entry}
+    either = {"if": {"required": ["base"]}, "then": _based(entry), "else": entry}
     parts = {f"{part}{_ON_BASE}": _based(content) for part, content in schema["$defs"].items()}
-    return {**schema, "$defs": schema["$defs"] | parts, "patternProperties": {name: scene}}
+    return {**schema, "$defs": schema["$defs"] | parts, "patternProperties": {name: either}}
 
 
 def _based(part: Mapping[str, Any]) -> dict[str, Any]:
@@ -46,7 +46,8 @@ def _based(part: Mapping[str, Any]) -> dict[str, Any]:
     if "$ref" in part:
         changed["$ref"] = part["$ref"] + _ON_BASE
     for key in {"anyOf", "oneOf"} & part.keys():
-        changed[key] = [_based(choice) for choice in part[key]]
+        # without its keys a value may fit several
+        changed["anyOf"] = [_based(choice) for choice in changed.pop(key)]
     if "properties" in part:
         changed["properties"] = {
             key: {"if": {"type": "null"}, "else": _based(content)} for key, content in part["properties"].items()

@@ -1,0 +1,43 @@
+"""Files that configuration files name.
+
+A name starts from the folder of its own file or, where nothing is there, from the folder above that has `config/`.
+"""
+
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from .sections_entry import ASKED, OWN
+
+CONFIG_FILES = ("blades_file", "fidelity_file", "scenes_file")
+TABLES, IMPORTED = ("profiles", "stacking_table", "designs"), ("mesh", "matrices", "sections")
+"""Keys of blades with tables, and with files of other programs, which may be large or belong to others."""
+
+
+def file_keys(entry: Mapping[str, Any]) -> list[str]:
+    """Keys of a blade's entry with names of files; hub and tip of sections may be files, the tip of a mesh is a set."""
+    ends = [key for key in ("hub", "tip") if "sections" in entry and entry.get(key) not in (OWN, ASKED)]
+    return [key for key in (*TABLES, *IMPORTED, *ends) if isinstance(entry.get(key), str)]
+
+
+def study_folder(file: Path) -> Path:
+    """The nearest folder above a file that has a folder `config`, or without one the file's own."""
+    return next((folder for folder in file.parents if (folder / "config").is_dir()), file.parent)
+
+
+def named_file(name: str, file: Path, root: Path | None = None) -> str:
+    """The file that a name in `file` stands for, as seen from `root`, the last folder looked into; without that absolute."""
+    places = [folder / name for folder in (file.parent, study_folder(file), root or file.parent)]
+    there = [place for place in places if os.path.exists(place)]
+    # one that is nowhere is missed where its folder is
+    path = [*there, *(place for place in places if place.parent.is_dir()), places[1]][0]
+    if root is None:
+        return str(path)
+    return name if path == root / name else str(path.relative_to(root) if path.is_relative_to(root) else path)
+
+
+def located_files(content: Any, keys: Iterable[str], file: Path, root: Path | None) -> Any:
+    """The content of `file`, or an entry of it, with the files under some keys as `named_file` has them."""
+    names = {key: content[key] for key in keys if isinstance(content.get(key), str)}
+    return content | {key: named_file(name, file, root) for key, name in names.items() if name.strip() and name.isprintable()}
