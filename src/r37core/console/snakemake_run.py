@@ -118,7 +118,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
         own, only_given = Path(workflow.basedir), config.replace_workflow_config
         folder = own if (own / "config").is_dir() else root
         settings = settings_of_run(folder, config.configfiles, config.config, above, only_given=only_given)
-    _check_machine(settings.results, refusal, reads_only=output.dryrun)
+    check_machine(settings.results, refusal, reads_only=output.dryrun)
     lifted = lock.enter() if workflow.is_main_process else []
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
@@ -127,7 +127,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     return Console(workflow, refusal, logger.warning, settings, source, began, caller)
 
 
-def _check_machine(results: Path, refusal: type[Exception], reads_only: bool) -> None:
+def check_machine(results: Path, refusal: type[Exception], reads_only: bool) -> None:
     """Refuse what would end a run only when it writes its first or last file."""
     try:
         date_created()
