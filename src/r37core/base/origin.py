@@ -36,11 +36,11 @@ def date_created() -> str:
 
     Raises ValueError for another text. See https://reproducible-builds.org/specs/source-date-epoch.
     """
-    given = os.environ.get("SOURCE_DATE_EPOCH")
+    epoch = os.environ.get("SOURCE_DATE_EPOCH")
     try:
-        return datetime.fromtimestamp(int(given or time.time()), UTC).isoformat(timespec="seconds")
+        return datetime.fromtimestamp(int(epoch or time.time()), UTC).isoformat(timespec="seconds")
     except (ValueError, OverflowError, OSError):
-        raise ValueError(f"SOURCE_DATE_EPOCH: found {given!r}; allowed: whole seconds since 1970") from None
+        raise ValueError(f"SOURCE_DATE_EPOCH: found {epoch!r}; allowed: whole seconds since 1970") from None
 
 
 @cache

@@ -197,8 +197,8 @@ def _folder() -> Path:
         folder = parent / f"r37-{os.getuid()}"
         with suppress(OSError):
             folder.mkdir(0o700, parents=True, exist_ok=True)
-            found = folder.lstat()
-            if not stat.S_ISDIR(found.st_mode) or found.st_uid != os.getuid() or found.st_mode & 0o022:
+            state = folder.lstat()
+            if not stat.S_ISDIR(state.st_mode) or state.st_uid != os.getuid() or state.st_mode & 0o022:
                 _tell(f"{folder}: not used, as others may write it; remove it, and machine code is compiled there anew")
             elif os.access(folder, os.W_OK):
                 if parent == temporary:
