@@ -17,7 +17,6 @@ import pytest
 from defaults import IntegrationChoice
 from integration_cases import DIRECT, bits_of_programs, random_model, with_static_modes
 
-from r37core.base.io import OutputFileError
 from r37core.base.plain import to_plain
 from r37core.machine_code import kept, native
 from r37core.machine_code.alignment import LANES, NUMBER_BYTES, address_of, aligned_zeros
@@ -86,7 +85,7 @@ def test_a_folder_that_others_may_write_is_not_loaded_from(cache, monkeypatch, t
         True
     ] * 2
     (tmp_path / "temporary" / cache.name).chmod(0o777)
-    with pytest.raises(OutputFileError, match="R37_CACHE: found no folder that can be written for machine code"):
+    with pytest.raises(PermissionError, match="R37_CACHE: found no folder that can be written for machine code"):
         kept.read_kept("twice.o")
 
 

@@ -49,7 +49,7 @@ def test_a_date_of_nonsense_names_its_variable(monkeypatch, given):
     [
         ("import sys; sys.platform = 'win32'; import r37", "on Windows use WSL, the Windows Subsystem for Linux"),
         (
-            "import os; os.environ['XDG_CACHE_HOME'] = '/dev/null'; import snakemake_executor_plugin_warm",
+            "import os; os.environ['XDG_CACHE_HOME'] = '/proc/none'; import snakemake_executor_plugin_warm",
             "XDG_CACHE_HOME: found",
         ),
     ],

@@ -16,16 +16,14 @@ _TOLERANCE = 1e-12
 
 
 _ROOM_BYTES = 400
-"""Address space for the factors of each non-zero entry. They fill 80 to 190 on meshes of 4,500 to 54,000 nodes; SuperLU takes
-more at once, and with little left it enlarges its arrays by less and less without an end."""
+"""Address space for each non-zero entry. Factors fill 50 to 190; SuperLU may enlarge them by ever less with less room."""
 
 
 def factorise(matrix: sp.sparray) -> Solve:
     """Factorise a symmetric positive definite matrix once; the returned function solves for one or more right sides.
 
     SuperLU in symmetric mode with minimum-degree ordering of A^T + A. On this project's meshes (thin, almost
-    two-dimensional) it is within a factor of two of CHOLMOD, without its licence and platform limits. Raises MemoryError
-    where the factors have no room.
+    two-dimensional) it is within a factor of two of CHOLMOD, without its licence and platform limits. MemoryError without room.
     """
     if resource.getrlimit(resource.RLIMIT_AS)[0] != resource.RLIM_INFINITY:
         _check_room(matrix)
@@ -37,7 +35,6 @@ def _check_room(matrix: sp.sparray) -> None:
     """MemoryError where this process has no address space left for the factors."""
     room = _ROOM_BYTES * matrix.nnz
     try:
-        # nothing is written there: it takes no memory
         mmap.mmap(-1, room, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS).close()
     except OSError:
         wanted = f"the factors of {matrix.shape[0]} degrees of freedom need room for {room / 1e6:.0f} MB"

@@ -1,27 +1,22 @@
 """Results that take long to make, in files by a hash of all that their content follows from; each is checked when it is read.
 
-They lie in a folder of the user's own in the package, in the cache folder or in the temporary folder, the first that can be
-written, or where a caller says. A file that is cut short or damaged is made again; all may be removed at any time. Of several
-processes and threads that need the same one makes it and the others wait, so that a core is not busy twice with one thing.
-Light: simulation jobs import it.
+They lie in the user's own folder in the package, the cache folder or the temporary one, or where a caller says. A file that is
+cut short or damaged is made again; all may be removed at any time. Of several processes and threads that need the same one
+makes it and the others wait, so that a core is not busy twice with one thing. Light: simulation jobs import it.
 """
 
 import fcntl
-import glob
 import hashlib
 import logging
 import os
 import secrets
 import shutil
-import stat
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from typing import BinaryIO
-
-from r37core.base.io import OutputFileError
 
 _PACKAGE = Path(__file__).parents[1]
 
@@ -156,7 +151,7 @@ def _remove_abandoned(folder: Path) -> None:
         with suppress(OSError), open(name, "ab") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if _is_at(lock, name):
-                for scratch in folder.glob(f"{glob.escape(name.stem)}.*/"):
+                for scratch in folder.glob(f"{name.stem}.*/"):
                     shutil.rmtree(scratch, ignore_errors=True)
                 name.unlink()
 
@@ -188,26 +183,22 @@ def _digest_of(file: Path) -> Path:
 
 
 def _folder() -> Path:
-    """The folder of this user's machine code: nobody else may write it, whatever the umask, since what it holds is run.
-
-    Raises OutputFileError where there is none.
-    """
+    """The user's own folder of machine code: nobody else may write what is run. PermissionError where there is none."""
     package, users, temporary = _PACKAGE / "__pycache__", named_folder(), Path(tempfile.gettempdir())
     for parent in (package, users, temporary):
         folder = parent / f"r37-{os.getuid()}"
         with suppress(OSError):
             folder.mkdir(0o700, parents=True, exist_ok=True)
             state = folder.lstat()
-            if not stat.S_ISDIR(state.st_mode) or state.st_uid != os.getuid() or state.st_mode & 0o022:
+            # links have all rights
+            if state.st_uid != os.getuid() or state.st_mode & 0o022:
                 _tell(f"{folder}: not used, as others may write it; remove it, and machine code is compiled there anew")
             elif os.access(folder, os.W_OK):
                 if parent == temporary:
                     _tell(f"{package} and {users} cannot be written: machine code is kept in {folder}; R37_CACHE names another")
                 return folder
-    raise OutputFileError("R37_CACHE: found no folder that can be written for machine code; allowed: a folder that can")
+    raise PermissionError("R37_CACHE: found no folder that can be written for machine code; allowed: a folder that can")
 
 
-@cache
-def _tell(line: str) -> None:
-    """Warn of something once in a process."""
-    logging.getLogger("r37").warning("%s", line)
+_tell = cache(logging.getLogger("r37").warning)
+"""Warns of something once in a process."""

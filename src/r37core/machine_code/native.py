@@ -23,15 +23,6 @@ from .kept import kept_bytes
 _PACKAGE = Path(__file__).parents[1]
 
 
-_TRY_PROCESSOR = """import sys
-import llvmlite.binding as llvm
-llvm.initialize_native_target()
-llvm.initialize_native_asmprinter()
-machine = llvm.Target.from_default_triple().create_target_machine(cpu=sys.argv[1])
-machine.emit_object(llvm.parse_assembly("define void @f() { ret void }"))
-"""
-
-
 class ObjectCodeError(RuntimeError):
     """Object code that cannot be made: it needs what is not there, or the environment excludes it."""
 
@@ -114,13 +105,12 @@ def _check_environment() -> None:
     if (disabled := os.environ.get("NUMBA_DISABLE_JIT", "0")) not in ("", "0"):
         raise ObjectCodeError(f"NUMBA_DISABLE_JIT: found {disabled}; allowed: 0, as the time integration is compiled")
     if named := os.environ.get("NUMBA_CPU_NAME"):
-        # LLVM may end the process, which is another one therefore, and only prints that it does not know a name
-        tried = subprocess.run([sys.executable, "-c", _TRY_PROCESSOR, named], capture_output=True, text=True, check=False)
-        if tried.returncode or "not a recognized processor" in tried.stderr:
-            raise ObjectCodeError(
-                f"NUMBA_CPU_NAME: found {named}, which LLVM cannot compile for; allowed: a name of LLVM's, as "
-                f"{this_processor()[0]}, or unset for this processor"
-            )
+        # in a process that LLVM may end; it only prints that it does not know a name
+        trial = f"from {__name__} import object_code; object_code('define void @f() {{ ret void }}', 'f', 'f')"
+        done = subprocess.run([sys.executable, "-c", trial], capture_output=True, text=True, check=False)
+        if done.returncode or "not a recognized processor" in done.stderr:
+            allowed = f"allowed: a name of LLVM's, as {this_processor()[0]}, or unset for this processor"
+            raise ObjectCodeError(f"NUMBA_CPU_NAME: found {named}, which LLVM cannot compile for; {allowed}")
 
 
 def _numba_version() -> str:
