@@ -1,10 +1,14 @@
 """The table of elements, matrices against closed-form answers, and elastic forces at large displacement."""
 
+import resource
+import sys
 from dataclasses import replace
 from math import factorial
+from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 from box_mesh import box_mesh
 
 from r37core.fem.assembly import NodePattern, assemble_stiffness, block_matrix
@@ -13,7 +17,7 @@ from r37core.fem.large_displacement import LargeDisplacement
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble, centrifugal_load, static_displacement
 from r37core.fem.quadrature import box_rule, tetrahedron_rule, wedge_rule
-from r37core.fem.solver import lowest_modes
+from r37core.fem.solver import factorise, lowest_modes
 from r37core.fem.stress import stress_at
 
 INSIDE = np.array([[0.2, 0.3, 0.4], [0.6, 0.1, 0.2], [0.1, 0.1, 0.0]])
@@ -327,3 +331,19 @@ def test_strain_energies_are_those_of_the_third_derivative(solid, fields):
     energies = solid.strain_energies(list(pairs.values()))
     total = sum(energies[2 * number, 2 * number + 1] for number in range(3))
     assert total == pytest.approx(np.sum(d * third_derivative(solid, a, b, c)), rel=1e-10)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux tells how much address space is taken")
+def test_factors_without_room_are_an_error_with_what_they_need():
+    """SuperLU would enlarge its arrays again and again."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    matrix = sp.dia_array((np.ones((3, 10**6)), [-1, 0, 1]), shape=(10**6, 10**6))
+    used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used + 10**9, hard))
+    try:
+        with pytest.raises(
+            MemoryError, match=r"the factors of 1000000 degrees of freedom need room for 1200 MB; raise the limit"
+        ):
+            factorise(matrix)
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))

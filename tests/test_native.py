@@ -4,8 +4,10 @@ import ast
 import ctypes
 import json
 import os
+import stat
 import subprocess
 import sys
+import tempfile
 from importlib.util import resolve_name
 from itertools import pairwise, product
 from pathlib import Path
@@ -36,8 +38,10 @@ define i64 @odd_name(i64 %x) {
 def cache(monkeypatch, tmp_path):
     """An empty cache folder, as of a package that cannot be written."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(kept, "_writable", lambda _: False)
-    return tmp_path / "r37"
+    monkeypatch.delenv("R37_CACHE", raising=False)
+    monkeypatch.setattr(kept, "_PACKAGE", tmp_path / "nowhere")
+    (tmp_path / "nowhere").touch()
+    return tmp_path / f"r37/r37-{os.getuid()}"
 
 
 def make():
@@ -61,6 +65,66 @@ def test_made_once(cache):
     cached_object("twice", Sources(), 2, build)
     assert len(made) == 2
     assert len(list(cache.glob("*.o"))) == 2
+
+
+def test_a_folder_that_others_may_write_is_not_loaded_from(cache, monkeypatch, tmp_path, caplog):
+    """Its code would be run. Another folder is taken, and where neither package nor cache can be written a temporary one."""
+    cached_object("twice", Sources(), None, make)
+    assert stat.S_IMODE(cache.stat().st_mode) == 0o700
+    (planted,) = cache.glob("*.o")
+    planted.write_bytes(b"planted")
+    kept._digest_of(planted).write_text(kept.content_digest(planted))
+    cache.chmod(0o770)
+    (tmp_path / "temporary").mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
+    for _ in range(2):
+        assert twice(cached_object("twice", Sources(), None, make)) == 42
+    assert len(list((tmp_path / "temporary").glob("r37-*/*.o"))) == 1
+    told = [record.getMessage() for record in caplog.records if record.levelname == "WARNING"]
+    assert [line.startswith((f"{cache}: not used, as others may write it", f"{tmp_path}/nowhere")) for line in told] == [
+        True
+    ] * 2
+    (tmp_path / "temporary" / cache.name).chmod(0o777)
+    with pytest.raises(PermissionError, match="R37_CACHE: found no folder that can be written for machine code"):
+        kept.read_kept("twice.o")
+
+
+def test_what_a_killed_process_left_is_removed_and_a_living_one_keeps_its_folder(tmp_path):
+    """A process is killed while it makes a file, another one makes its own meanwhile."""
+    code = (
+        "import sys, time\nfrom pathlib import Path\nfrom r37core.machine_code.kept import kept_file\n"
+        "make = lambda file: (file.write_text('half'), print('begun', flush=True), time.sleep(600))\n"
+        "kept_file(sys.argv[1], '', make, Path(sys.argv[2]))"
+    )
+    command = [sys.executable, "-c", code]
+    running = [subprocess.Popen([*command, name, str(tmp_path)], stdout=subprocess.PIPE) for name in ("killed", "living")]
+    try:
+        for process in running:
+            process.stdout.readline()
+        running[0].kill()
+        running[0].wait()
+        kept.kept_file("mine", "", lambda file: file.write_text("whole"), tmp_path)
+        assert {path.name.strip(".").split("-")[0] for path in tmp_path.iterdir()} == {"living", "mine"}
+        assert [file.read_text() for file in tmp_path.glob(".living-*/living")] == ["half"]
+    finally:
+        for process in running:
+            process.kill()
+            process.communicate()
+
+
+@pytest.mark.parametrize(
+    ("variable", "value", "told"),
+    [
+        ("NUMBA_DISABLE_JIT", "1", "found 1; allowed: 0"),
+        ("NUMBA_CPU_NAME", "skylak", "found skylak, which LLVM cannot compile for; allowed: a name of LLVM's"),
+        # LLVM ends the process
+        ("NUMBA_CPU_NAME", "i386", "found i386"),
+    ],
+)
+def test_a_variable_with_which_nothing_is_compiled_is_named(cache, monkeypatch, variable, value, told):
+    monkeypatch.setenv(variable, value)
+    with pytest.raises(ObjectCodeError, match=f"{variable}: {told}"):
+        cached_object("twice", Sources(), None, make)
 
 
 CROWDED = """
@@ -97,7 +161,7 @@ def test_processes_wait_for_the_one_that_makes_it(cache):
     code = (
         "import sys, time\n"
         "from r37core.machine_code import kept, native\n"
-        "kept._writable = lambda folder: False\n"
+        f"kept._PACKAGE = kept.Path({str(cache.parents[1] / 'nowhere')!r})\n"
         "def build():\n"
         "    time.sleep(2)\n"
         "    print(sys.argv[1], flush=True)\n"

@@ -1,12 +1,15 @@
 """What made a result: attributes of joined datasets."""
 
+import subprocess
+import sys
 import time
 
 import netCDF4
 import numpy as np
+import pytest
 
 import r37core
-from r37core.base.origin import code_hash, origin
+from r37core.base.origin import code_hash, date_created, origin
 
 
 def attributes(file):
@@ -32,3 +35,25 @@ def test_the_date_is_now_unless_the_environment_has_one(monkeypatch):
     made = origin("any")
     assert made["date_created"].startswith(time.strftime("%Y-%m-", time.gmtime()))
     assert made["title"] == "any" and made["history"].startswith(made["date_created"])
+
+
+@pytest.mark.parametrize("given", ["yesterday", "1e9", "9" * 30])
+def test_a_date_of_nonsense_names_its_variable(monkeypatch, given):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", given)
+    with pytest.raises(ValueError, match=f"SOURCE_DATE_EPOCH: found '{given}'; allowed: whole seconds since 1970"):
+        date_created()
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ("import sys; sys.platform = 'win32'; import r37", "on Windows use WSL, the Windows Subsystem for Linux"),
+        (
+            "import os; os.environ['XDG_CACHE_HOME'] = '/proc/none'; import snakemake_executor_plugin_warm",
+            "XDG_CACHE_HOME: found",
+        ),
+    ],
+)
+def test_a_machine_that_cannot_run_it_is_told_in_the_last_line(change, told):
+    done = subprocess.run([sys.executable, "-c", change], capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and told in done.stderr.splitlines()[-1]

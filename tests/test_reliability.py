@@ -24,7 +24,7 @@ from stubbed_runs import copy_stubbed
 from workflow_runs import copy_project, kill_snakemake, snakemake
 
 from r37core.base.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
-from r37core.base.io import InputFileError, OutputFileError, atomic_write, scratch_folder, write_json
+from r37core.base.io import InputFileError, OutputFileError, atomic_write, function_named, scratch_folder, write_json
 from r37core.base.speeds import plan_speeds
 from r37core.config import ConfigError, command_line_document
 from r37core.config.settings import merged_settings
@@ -191,6 +191,20 @@ def test_without_room_what_cannot_be_kept_is_there_and_no_temporary_folder_is_on
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
     with pytest.raises(OutputFileError, match=r"no temporary folder can be made: .*set TMPDIR"), scratch_folder():
         pass
+
+
+def test_an_import_that_fails_inside_of_a_step_keeps_its_own_error(tmp_path, monkeypatch):
+    """As of gmsh without libGL; names of modules and functions that are not there stay errors of those."""
+    (tmp_path / "steps_without_library.py").write_text("raise ImportError('libGL.so.1: cannot open shared object file')")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(ImportError, match=r"libGL\.so\.1: cannot open"):
+        function_named("steps_without_library.mesh")
+    monkeypatch.setitem(sys.modules, "gmsh", None)
+    monkeypatch.delitem(sys.modules, "r37core.fem.steps", raising=False)
+    monkeypatch.delitem(sys.modules, "r37core.mesh.generate", raising=False)
+    with pytest.raises(ImportError, match="gmsh"):
+        recipe.run_step("fem.steps.mesh", {}, {}, {})
+    assert function_named("r37core.base.io.as_list")("a") == ["a"]
 
 
 def test_the_lock_of_a_killed_run_is_lifted(folder):

@@ -1,7 +1,9 @@
 """The workflow through Snakemake: what is planned, what is re-run, and a small real run."""
 
 import contextlib
+import errno
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -16,11 +18,14 @@ import pandas as pd
 import pytest
 import yaml
 from browser import opened
+from snakemake.exceptions import WorkflowError
 from workflow_runs import LONGEST, copy_odd_project, digests, lose_speed, overlay, plan, planned, run_in_odd_project, snakemake
 
 from r37core.base.dataset_file import read_dataset
+from r37core.base.io import OutputFileError, atomic_write
 from r37core.base.yaml_file import load_yaml
 from r37core.console.report import main as report
+from r37core.console.snakemake_run import check_machine
 from r37core.time_integration.speed_file import read_speed
 
 pytestmark = pytest.mark.slow
@@ -279,6 +284,32 @@ def test_report_of_a_run_by_its_own_configuration(sweep_copy, monkeypatch, capsy
     shutil.copytree(results, sweep_copy / "results/runs/copy")
     assert report(["results/runs/copy"]) == 1
     assert "found results/runs/copy, a copy of the results in results/runs/first" in capsys.readouterr().err
+
+
+def test_files_with_other_times_run_nothing_again(sweep_copy):
+    """As `cp -r` gives them, in the order of its writing. Files above a megabyte count by their content, too."""
+    models = list(sweep_copy.glob("results/*/rom_*.nc"))
+    assert models and all(file.stat().st_size > 10**6 for file in models)
+    for file in models:
+        os.utime(file)
+    assert planned(sweep_copy) == {}
+    with models[0].open("ab") as model:
+        model.write(b"more")
+    assert "contact_model" in planned(sweep_copy)
+
+
+def test_a_folder_that_cannot_be_written_is_refused_before_the_first_job(sweep_copy, monkeypatch, capsys):
+    """As on a read-only mount, which not even root may write."""
+    monkeypatch.chdir(sweep_copy)
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    told = "results: cannot be written; change the folder's rights, or work in a copy of the whole project (cp -a)"
+    assert report(["results"]) == 1
+    assert capsys.readouterr().err == f"{told}\n"
+    with pytest.raises(WorkflowError, match=re.escape(told)):
+        check_machine(Path("results"), WorkflowError, reads_only=False)
+    check_machine(Path("results"), WorkflowError, reads_only=True)
+    with pytest.raises(OutputFileError, match=r"a.nc: cannot be written: nobody may write there; change"), atomic_write("a.nc"):
+        raise PermissionError(errno.EROFS, "Read-only file system")
 
 
 def test_report_opens_offline(sweep_copy, tmp_path):

@@ -52,7 +52,7 @@ def _run(options: argparse.Namespace) -> int:
             if options.quiet:
                 logger.setLevel(logging.WARNING)
             options.run(options)
-    except (ValueError, r37.InputFileError) as refusal:
+    except (ValueError, MemoryError, r37.InputFileError) as refusal:
         print(f"r37: {refusal}", file=sys.stderr)
         return 1
     finally:

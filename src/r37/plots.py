@@ -5,11 +5,11 @@ Matplotlib's parameters and backend stay those of the caller.
 
 from __future__ import annotations
 
-from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
+from r37core.base.io import function_named
 from r37core.base.plain import to_plain
 from r37core.config import ConfigError
 from r37core.designs.table import compared_in
@@ -183,7 +183,7 @@ def _drawn(drawing: str, *arguments: Any, **more: Any) -> Figure:
         from r37core.figures.style import PARAMETERS
 
         plt.rcParams.update(PARAMETERS)
-        return resolve_name(f"r37core.{drawing}")(*arguments, **more)
+        return function_named(f"r37core.{drawing}")(*arguments, **more)
 
 
 def _check(argument: str, dataset: xr.Dataset, needed: str, call: str) -> None:

@@ -25,7 +25,7 @@ from .stages import LOGGER, job_bar, simulations_in_words
 _OPTIONS = (
     *("--workflow-profile", "none", "--nocolor", "--rerun-incomplete", "--rerun-triggers"),
     *("mtime", "params", "input", "software-env", "--executor", "warm", "--scheduler", "greedy"),
-    *("--scheduler-subsample", "100"),
+    *("--scheduler-subsample", "100", "--max-checksum-file-size", "1GB"),
 )
 """Options of profiles/default, but without going on after a failure: a call ends with the first."""
 

@@ -5,19 +5,18 @@ What it prints goes to the rule's log, a failure ends in one clear message, and 
 
 import sys
 from contextlib import nullcontext
-from importlib import import_module
 
+from r37core.base.io import function_named
 from r37core.base.process_wide import one_thread
 from r37core.console.failures import printed_warnings, reported, show
 
 
 def run(params):
-    module, function = params.step.rsplit(".", 1)
     params.cores = snakemake.threads
     warned = printed_warnings(params.locations) if hasattr(params, "locations") else nullcontext()
     # Snakemake lets linear algebra use all cores of a job, which are for its forks
     with warned, one_thread() if params.cores > 1 else nullcontext():
-        shown = getattr(import_module(module), function)(snakemake.input, snakemake.output, params)
+        shown = function_named(params.step)(snakemake.input, snakemake.output, params)
     if shown:
         print(shown)
         show(shown, sys.__stderr__)

@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import ItemsView, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from pkgutil import resolve_name
 from types import SimpleNamespace
 from typing import Any
 
@@ -29,6 +30,10 @@ FULL_DISK = 2**20
 
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 """Numbers of the errors of a file that there is no room for."""
+
+
+READ_ONLY = "change the folder's rights, or work in a copy of the whole project (cp -a)"
+"""Remedy for a folder that cannot be written."""
 
 
 class InputFileError(RuntimeError):
@@ -102,6 +107,8 @@ def _no_room(error: Exception, folder: Path) -> str | None:
         return "the disk is full; free some space"
     if number == errno.EFBIG or (unknown and limited):
         return "files may not be as large here; raise the limit (ulimit -f)"
+    if number in (errno.EACCES, errno.EROFS) and not os.access(folder, os.W_OK):
+        return f"nobody may write there; {READ_ONLY}"
     return None
 
 
@@ -141,6 +148,13 @@ class Named(SimpleNamespace):
     def items(self) -> ItemsView[str, Any]:
         """Names and what they stand for."""
         return vars(self).items()
+
+
+def function_named(name: str) -> Any:
+    """The function of a dotted name, `module.function`. Raises what importing its module raises."""
+    module, _, function = name.rpartition(".")
+    # with a colon: for dots alone resolve_name takes a failed import for the end of the module's name
+    return resolve_name(f"{module}:{function}")
 
 
 def as_list(files: str | Sequence[str]) -> list[str]:

@@ -34,10 +34,13 @@ def origin(title: str) -> dict[str, str]:
 def date_created() -> str:
     """Date and time now, or those of the environment's SOURCE_DATE_EPOCH (s since 1970), so that equal inputs give equal bytes.
 
-    See https://reproducible-builds.org/specs/source-date-epoch.
+    Raises ValueError for another text. See https://reproducible-builds.org/specs/source-date-epoch.
     """
-    seconds = float(os.environ.get("SOURCE_DATE_EPOCH") or time.time())
-    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")
+    epoch = os.environ.get("SOURCE_DATE_EPOCH")
+    try:
+        return datetime.fromtimestamp(int(epoch or time.time()), UTC).isoformat(timespec="seconds")
+    except (ValueError, OverflowError, OSError):
+        raise ValueError(f"SOURCE_DATE_EPOCH: found {epoch!r}; allowed: whole seconds since 1970") from None
 
 
 @cache

@@ -1,6 +1,7 @@
 """Snakemake's report of a finished run, with the configuration of that run: `python -m r37core.console.report RESULTS`."""
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -8,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from r37core.base.io import READ_ONLY
 from r37core.config.settings import results_folder
 from r37core.product.remarks import CONFIGURATION
 
@@ -17,6 +19,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     results = Path((sys.argv[1:] if arguments is None else arguments)[0])
     try:
         config = configuration_of(results)
+        if not os.access(results, os.W_OK):
+            raise ValueError(f"{results}: cannot be written; {READ_ONLY}")
     except ValueError as refusal:
         print(refusal, file=sys.stderr)
         return 1

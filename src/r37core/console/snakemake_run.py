@@ -18,7 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from r37core.base.io import InputFileError
+from r37core.base.io import READ_ONLY, InputFileError
+from r37core.base.origin import date_created
 from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_at_end
 from r37core.plans.extent import extent_of
@@ -117,12 +118,23 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
         own, only_given = Path(workflow.basedir), config.replace_workflow_config
         folder = own if (own / "config").is_dir() else root
         settings = settings_of_run(folder, config.configfiles, config.config, above, only_given=only_given)
+    check_machine(settings.results, refusal, reads_only=output.dryrun)
     lifted = lock.enter() if workflow.is_main_process else []
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
     if not (caller or os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
         quieten(logger.handlers, Progress(extent_of(settings, simulations_of_members(settings)).at_most))
     return Console(workflow, refusal, logger.warning, settings, source, began, caller)
+
+
+def check_machine(results: Path, refusal: type[Exception], reads_only: bool) -> None:
+    """Refuse what would end a run only when it writes its first or last file."""
+    try:
+        date_created()
+    except ValueError as error:
+        raise refusal(str(error)) from None
+    if results.exists() and not reads_only and not os.access(results, os.W_OK):
+        raise refusal(f"{results}: cannot be written; {READ_ONLY}")
 
 
 def without_files(refusal: type[Exception]) -> type[Exception]:

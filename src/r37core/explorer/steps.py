@@ -2,9 +2,9 @@
 
 from inspect import signature
 from pathlib import Path
-from pkgutil import resolve_name
 from typing import Any
 
+from r37core.base.io import function_named
 from r37core.base.plain import from_plain
 from r37core.results.datasets import FURTHER_RUNS, with_further_runs
 from r37core.results.operating_range import OperatingRange
@@ -24,7 +24,7 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     """
     files = dict(input.items())
     tables = {Path(file).stem: read_table(file) for file in (files.pop(name) for name in params.panels)}
-    functions = {name: resolve_name(function) for name, function in params.panels.items()}
+    functions = {name: function_named(function) for name, function in params.panels.items()}
     panels = {
         name: function(**{each: tables[each] for each in signature(function).parameters if each in tables})
         for name, function in functions.items()

@@ -2,11 +2,10 @@
 
 from inspect import signature
 from pathlib import Path
-from pkgutil import resolve_name
 from typing import Any
 
 from r37core.base.dataset_file import read_dataset
-from r37core.base.io import as_list
+from r37core.base.io import as_list, function_named
 from r37core.base.plain import from_plain
 from r37core.results.operating_range import OperatingRange
 from r37core.results.regions import judged
@@ -25,7 +24,7 @@ def draw(input: Any, output: Any, params: Any) -> None:
     arguments = dict(params.items())
     operating, drawn = arguments.pop("operating", None), arguments.pop("drawn", {})
     function, caption, of, *_ = (arguments.pop(name) for name in ("draw", "caption", "of", "step", "code"))
-    drawing = resolve_name(function)
+    drawing = function_named(function)
     parameters = signature(drawing).parameters
     for name, file in input.items():
         # a name where the module postpones its annotations

@@ -1,14 +1,16 @@
 """Results that take long to make, in files by a hash of all that their content follows from; each is checked when it is read.
 
-They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says. A
-file that is cut short or damaged is made again; all may be removed at any time. Of several processes and threads that need
-the same one makes it and the others wait, so that a core is not busy twice with one thing. Light: simulation jobs import it.
+They lie in the user's own folder in the package, the cache folder or the temporary one, or where a caller says. A file that is
+cut short or damaged is made again; all may be removed at any time. Of several processes and threads that need the same one
+makes it and the others wait, so that a core is not busy twice with one thing. Light: simulation jobs import it.
 """
 
 import fcntl
 import hashlib
+import logging
 import os
 import secrets
+import shutil
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -26,7 +28,7 @@ def kept_file(name: str, made_of: object, make: Callable[[Path], None], folder: 
     """
     file = folder / _hashed(name, made_of)
     if not _sound(file):
-        with _alone(file), tempfile.TemporaryDirectory(prefix=".", dir=folder) as partial:
+        with _alone(file), tempfile.TemporaryDirectory(prefix=f".{file.name}.", dir=folder) as partial:
             if not _sound(file):
                 make(made := Path(partial) / name)
                 # where the file system has no locks another process may have been faster
@@ -126,6 +128,7 @@ def _hashed(name: str, made_of: object) -> str:
 @contextmanager
 def _alone(file: Path) -> Iterator[None]:
     """Wait for others that make this file, threads too; where the file system has no locks, several may make it."""
+    _remove_abandoned(file.parent)
     name = file.with_name(f".{file.name}.lock")
     while True:
         with open(name, "ab") as lock:
@@ -140,6 +143,17 @@ def _alone(file: Path) -> Iterator[None]:
             finally:
                 name.unlink(missing_ok=True)
             return
+
+
+def _remove_abandoned(folder: Path) -> None:
+    """Remove what killed processes left: the system has released their locks, while those of living processes are held."""
+    for name in folder.glob(".*.lock"):
+        with suppress(OSError), open(name, "ab") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if _is_at(lock, name):
+                for scratch in folder.glob(f"{name.stem}.*/"):
+                    shutil.rmtree(scratch, ignore_errors=True)
+                name.unlink()
 
 
 def _is_at(opened: BinaryIO, name: Path) -> bool:
@@ -169,17 +183,22 @@ def _digest_of(file: Path) -> Path:
 
 
 def _folder() -> Path:
-    beside = _PACKAGE / "__pycache__"
-    if _writable(beside):
-        return beside
-    users = users_cache()
-    users.mkdir(parents=True, exist_ok=True)
-    return users
+    """The user's own folder of machine code: nobody else may write what is run. PermissionError where there is none."""
+    package, users, temporary = _PACKAGE / "__pycache__", named_folder(), Path(tempfile.gettempdir())
+    for parent in (package, users, temporary):
+        folder = parent / f"r37-{os.getuid()}"
+        with suppress(OSError):
+            folder.mkdir(0o700, parents=True, exist_ok=True)
+            state = folder.lstat()
+            # links have all rights
+            if state.st_uid != os.getuid() or state.st_mode & 0o022:
+                _tell(f"{folder}: not used, as others may write it; remove it, and machine code is compiled there anew")
+            elif os.access(folder, os.W_OK):
+                if parent == temporary:
+                    _tell(f"{package} and {users} cannot be written: machine code is kept in {folder}; R37_CACHE names another")
+                return folder
+    raise PermissionError("R37_CACHE: found no folder that can be written for machine code; allowed: a folder that can")
 
 
-def _writable(folder: Path) -> bool:
-    try:
-        folder.mkdir(exist_ok=True)
-    except OSError:
-        return False
-    return os.access(folder, os.W_OK)
+_tell = cache(logging.getLogger("r37").warning)
+"""Warns of something once in a process."""

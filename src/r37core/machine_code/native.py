@@ -7,6 +7,8 @@ import ctypes
 import hashlib
 import logging
 import os
+import subprocess
+import sys
 from collections.abc import Callable
 from functools import cache
 from importlib.util import find_spec
@@ -22,7 +24,7 @@ _PACKAGE = Path(__file__).parents[1]
 
 
 class ObjectCodeError(RuntimeError):
-    """Object code that needs what is not there."""
+    """Object code that cannot be made: it needs what is not there, or the environment excludes it."""
 
 
 def processor() -> tuple[str, str]:
@@ -62,6 +64,7 @@ def cached_object(name: str, sources: Sources, about: object, build: Callable[[]
     def told() -> bytes:
         # the name of the package that people call; whoever calls it shows such lines (r37.stages)
         logging.getLogger("r37").info("compiling the %s for this processor, up to half a minute", name.replace("_", " "))
+        _check_environment()
         return build()
 
     return kept_bytes(f"{name}.o", made_of, told, lambda: sources.digest_now() == sources.digest)
@@ -95,6 +98,19 @@ def load_function(code: bytes, name: str, result: Any, *arguments: Any) -> Calla
     function = ctypes.CFUNCTYPE(result, *arguments)(engine.get_function_address(name))
     function.engine = engine  # type: ignore[attr-defined]  # the code lives as long as its engine
     return function
+
+
+def _check_environment() -> None:
+    """ObjectCodeError for variables of numba with which its compiler does nothing, or LLVM ends the process."""
+    if (disabled := os.environ.get("NUMBA_DISABLE_JIT", "0")) not in ("", "0"):
+        raise ObjectCodeError(f"NUMBA_DISABLE_JIT: found {disabled}; allowed: 0, as the time integration is compiled")
+    if named := os.environ.get("NUMBA_CPU_NAME"):
+        # in a process that LLVM may end; it only prints that it does not know a name
+        trial = f"from {__name__} import object_code; object_code('define void @f() {{ ret void }}', 'f', 'f')"
+        done = subprocess.run([sys.executable, "-c", trial], capture_output=True, text=True, check=False)
+        if done.returncode or "not a recognized processor" in done.stderr:
+            allowed = f"allowed: a name of LLVM's, as {this_processor()[0]}, or unset for this processor"
+            raise ObjectCodeError(f"NUMBA_CPU_NAME: found {named}, which LLVM cannot compile for; {allowed}")
 
 
 def _numba_version() -> str:

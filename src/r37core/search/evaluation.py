@@ -5,13 +5,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
-from pkgutil import resolve_name
 from typing import Any
 
 import numpy as np
 
 from r37core.base.dataset_file import read_dataset
-from r37core.base.io import Named, read_json, write_json
+from r37core.base.io import Named, function_named, read_json, write_json
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import BLADE
 from r37core.blade.definition import shape_from_plain
@@ -55,7 +54,7 @@ class Carried:
 
 def _read(config: Document, root: Path) -> Carried:
     # models of config.yaml are made of the sections of all extensions, of which this is one
-    return Carried(resolve_name("r37core.product.extensions.load_settings")(config, root))
+    return Carried(function_named("r37core.product.extensions.load_settings")(config, root))
 
 
 class Refused(ValueError):

@@ -8,11 +8,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
-from pkgutil import resolve_name
 from typing import Any
 
 import r37core
-from r37core.base.io import Named, room_for, scratch_folder
+from r37core.base.io import Named, function_named, room_for, scratch_folder
 from r37core.base.plain import to_plain
 from r37core.config import Settings
 from r37core.exchange.importing.source import MatricesSource, MeshSource
@@ -114,7 +113,7 @@ def structure_attributes(settings: Settings, blade: str) -> Attributes:
 
 def run_step(step: str, input: Mapping[str, Any], output: Mapping[str, Any], params: Mapping[str, Any]) -> Any:
     """Do a step, named as `fem.steps.mesh`, whose module is imported now. Gives and raises what it does."""
-    return resolve_name(f"r37core.{step}")(Named(**input), Named(**output), Named(**params))
+    return function_named(f"r37core.{step}")(Named(**input), Named(**output), Named(**params))
 
 
 @cache

@@ -3,14 +3,13 @@
 import shutil
 from dataclasses import replace
 from pathlib import Path
-from pkgutil import resolve_name
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from r37core.base.dataset_file import read_dataset, write_dataset
-from r37core.base.io import as_list, read_json, write_json, write_text
+from r37core.base.io import as_list, function_named, read_json, write_json, write_text
 from r37core.base.plain import from_plain
 from r37core.blade.geometry_file import read_geometry
 from r37core.fem.material import Material
@@ -120,7 +119,7 @@ def report(input: Any, output: Any, params: Any) -> None:
     """
     files = iter(as_list(input.cases))
     responses = {name: refusal(why) if why else read_dataset(next(files)) for name, why in params.reasons.items()}
-    made = resolve_name(params.module).tables(responses, **params.values)
+    made = function_named(f"{params.module}.tables")(responses, **params.values)
     for name, file in output.items():
         if file.endswith(".csv"):
             write_table(made[name], file, digits=6)
