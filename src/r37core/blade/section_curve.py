@@ -32,6 +32,9 @@ _THINNEST = 0.05
 _DEEPEST = 0.25
 """Share of the chord within which an edge has to begin."""
 
+_PAIRS = 10**6
+"""Pairs of pieces that are compared at once, for the memory."""
+
 Point = tuple[float, float, float]
 
 
@@ -128,8 +131,8 @@ class SectionCurve:
         count = len(self._dense)
         ahead = self._part(leading.after, _beyond(trailing.before, leading.after, count))
         back = self._part(trailing.after, _beyond(leading.before, trailing.after, count))[::-1]
-        middle_of = [float(np.interp(0.5, np.linspace(0.0, 1.0, len(side)), side[:, 1])) for side in (ahead, back)]
-        ahead_is_pressure = (middle_of[0] < middle_of[1]) == pressure_forward
+        # once round counter-clockwise, the way to the trailing edge is along the side at smaller angles
+        ahead_is_pressure = (area_and_centroid(*self._plane.T)[0] > 0.0) == pressure_forward
         sides = (ahead, back) if ahead_is_pressure else (back, ahead)
         self.pressure, self.suction = (CurvePart.through(side) for side in sides)
         arcs = [self._part(edge.before, _beyond(edge.after, edge.before, count)) for edge in (leading, trailing)]
@@ -262,22 +265,29 @@ def _cone_through(points: np.ndarray) -> tuple[Cone, float]:
 def _check_simple(plane: np.ndarray, label: str) -> None:
     """Raise BladeShapeError where the polygon through points, shape (n, 2), crosses itself or comes back to a point."""
     start, end = plane, np.roll(plane, -1, axis=0)
-    count = len(plane)
-    for block in np.array_split(np.arange(count), max(1, count**2 // 10**6)):
-        first, second = (part[block][:, None] for part in (start, end))
-        first_sides = _side(first, second, start[None]) * _side(first, second, end[None])
-        other_sides = _side(start[None], end[None], first) * _side(start[None], end[None], second)
-        # pieces that follow each other share a point, and each pair counts once
-        apart = np.arange(count)[None] - block[:, None]
+    count, along = len(plane), int(np.argmax(np.ptp(plane, axis=0)))
+    low, high = np.minimum(start, end)[:, along], np.maximum(start, end)[:, along]
+    order = np.argsort(low, kind="stable")
+    # pieces cross only where they overlap along the section; few do, so that the cost rises with the number of points
+    following = np.searchsorted(low[order], high[order], side="right") - np.arange(count) - 1
+    for places in np.split(np.arange(count), np.searchsorted(np.cumsum(following), np.arange(_PAIRS, following.sum(), _PAIRS))):
+        earlier = np.repeat(places, following[places])
+        starts = np.repeat(np.cumsum(following[places]) - following[places], following[places])
+        later = earlier + 1 + np.arange(len(earlier)) - starts
+        piece, other = np.sort([order[earlier], order[later]], axis=0)
+        first_sides = _side(start[piece], end[piece], start[other]) * _side(start[piece], end[piece], end[other])
+        other_sides = _side(start[other], end[other], start[piece]) * _side(start[other], end[other], end[piece])
+        # pieces that follow each other share a point
+        apart = other - piece
         crossed = (first_sides <= 0.0) & (other_sides <= 0.0) & (apart > 1) & (apart < count - 1)
-        for piece, other in np.argwhere(crossed) + np.array([block[0], 0]):
-            along = end[piece] - start[piece]
-            shares = [(part[other] - start[piece]) @ along / (along @ along) for part in (start, end)]
+        for one, two in sorted(zip(piece[crossed].tolist(), other[crossed].tolist(), strict=True)):
+            way = end[one] - start[one]
+            shares = [(part[two] - start[one]) @ way / (way @ way) for part in (start, end)]
             # pieces on one straight line cross where they overlap
             if max(shares) >= 0.0 and min(shares) <= 1.0:
                 raise BladeShapeError(
-                    f"{label}: the curve crosses itself, between points {piece + 1} and {piece + 2} and points {other + 1} and "
-                    f"{other + 2}; allowed: points in their order, once round"
+                    f"{label}: the curve crosses itself, between points {one + 1} and {one + 2} and points {two + 1} and "
+                    f"{two + 2}; allowed: points in their order, once round"
                 )
 
 
@@ -346,6 +356,13 @@ def _ends(plane: np.ndarray, z: np.ndarray) -> tuple[int, int]:
     """Numbers of the two points, among the samples, that are farthest apart, the one upstream first."""
     points = plane[::_PER_INTERVAL]
     hull = _PER_INTERVAL * np.sort(scipy.spatial.ConvexHull(points).vertices)
+    start = plane[hull[np.argmax(np.linalg.norm(plane[hull] - plane[hull[0]], axis=1))]]
+    away = plane[hull] - start
+    chord = away[np.argmax(np.linalg.norm(away, axis=1))]
+    # of many points only those can be farthest apart that are as far from some corner of the box along the chord
+    box = away @ np.array([chord, [-chord[1], chord[0]]]).T
+    reach = np.linalg.norm(np.maximum(box.max(axis=0) - box, box - box.min(axis=0)), axis=1)
+    hull = hull[reach >= (1.0 - 1e-9) * (chord @ chord)]
     distances = scipy.spatial.distance.cdist(plane[hull], plane[hull])
     first, second = (int(hull[number]) for number in np.unravel_index(np.argmax(distances), distances.shape))
     return (first, second) if z[first] <= z[second] else (second, first)
