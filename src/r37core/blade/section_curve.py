@@ -18,9 +18,6 @@ import scipy
 from .cone import Cone
 from .profile import BladeShapeError, area_and_centroid
 
-FEWEST_POINTS = 12
-"""Smallest number of points of a section."""
-
 _CORNER, _TIP = np.radians(60.0), np.radians(110.0)
 """Turns of the curve at a point from which on it is a corner, or the tip of a sharp edge."""
 _TWO_CORNERS = np.radians(140.0)
@@ -90,17 +87,20 @@ class SectionCurve:
     def __init__(self, points: Sequence[Point] | np.ndarray, label: str, pressure_forward: bool = True):
         self.label = label
         self.file_points = np.asarray(points, dtype=float)
-        if len(self.file_points) < FEWEST_POINTS:
-            raise BladeShapeError(f"{label}: found {len(self.file_points)} points; allowed: at least {FEWEST_POINTS}")
         self.points = _cylindrical(self.file_points)
         self.cone, self._inlet_z = _cone_through(self.points)
-        plane = self._unrolled(self.points)
+        plane = self.outline
         _check_simple(plane, label)
         self._dense, corners = _sampled(self.points, plane)
         self._plane = self._unrolled(self._dense)
         ends = _ends(self._plane, self._dense[:, 2])
         limits = [self._edge_limits(end, other, corners) for end, other in (ends, ends[::-1])]
         self._build_parts(limits, pressure_forward)
+
+    @property
+    def outline(self) -> np.ndarray:
+        """Points on the unrolled cone, shape (n, 2), seen from their middle."""
+        return self._unrolled(self.points)
 
     def _unrolled(self, cylindrical: np.ndarray) -> np.ndarray:
         """Points (r, theta, z) on the unrolled cone, shape (n, 2), seen from the middle of the points."""
@@ -139,18 +139,13 @@ class SectionCurve:
         # at the leading edge the curve comes from the side that it goes back on
         arcs = [arcs[0][::-1], arcs[1]] if ahead_is_pressure else [arcs[0], arcs[1][::-1]]
         self.leading_edge, self.trailing_edge = (_edge(arc, edge.round) for arc, edge in zip(arcs, limits, strict=True))
-        self._noses = np.array([self._point(edge.nose) for edge in limits])
-
-    def _point(self, place: float) -> np.ndarray:
-        """(r, theta, z) at a place of the dense samples, linear between them."""
-        count, low = len(self._dense), int(np.floor(place))
-        share = place - low
-        return (1.0 - share) * self._dense[low % count] + share * self._dense[(low + 1) % count]
+        self._noses = _interpolated(self._dense, np.array([edge.nose for edge in limits]))
 
     def _part(self, first: float, last: float) -> np.ndarray:
         """Points (r, theta, z) from one place to another, upwards, shape (n, 3)."""
         inner = np.arange(int(np.floor(first)) + 1, int(np.ceil(last)))
-        return np.concatenate([[self._point(first)], self._dense[inner % len(self._dense)], [self._point(last)]])
+        ends = _interpolated(self._dense, np.array([first, last]))
+        return np.concatenate([ends[:1], self._dense[inner % len(self._dense)], ends[1:]])
 
     @cached_property
     def centroid(self) -> tuple[float, float]:
@@ -185,8 +180,7 @@ class SectionCurve:
 
     def camber_line(self, shares: np.ndarray) -> np.ndarray:
         """Points half-way between the sides, shape (n, 3), m, in the blade's frame, from leading to trailing edge."""
-        r, theta, z = 0.5 * (self.pressure.point(shares) + self.suction.point(shares))
-        return np.stack([r * np.cos(theta), r * np.sin(theta), z], axis=1)
+        return _cartesian(0.5 * (self.pressure.point(shares) + self.suction.point(shares)).T)
 
     def rotated(self, angle: float) -> tuple[Point, ...]:
         """Points of the section turned on its cone about its centre of area, so that `angle` (rad) is added to its stagger.
@@ -297,26 +291,26 @@ def _side(start: np.ndarray, end: np.ndarray, points: np.ndarray) -> np.ndarray:
     return np.sign(along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0])
 
 
-def _turns(plane: np.ndarray) -> np.ndarray:
-    """Angle (rad) by which the polygon turns at each point."""
+def turns(plane: np.ndarray) -> np.ndarray:
+    """Angle (rad), positive counter-clockwise, by which the polygon through points, shape (n, 2), turns at each of them."""
     steps = np.roll(plane, -1, axis=0) - plane
     before = np.roll(steps, 1, axis=0)
     cross = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
-    return np.abs(np.arctan2(cross, np.sum(before * steps, axis=1)))
+    return np.arctan2(cross, np.sum(before * steps, axis=1))
 
 
 def _corners(plane: np.ndarray) -> np.ndarray:
     """Numbers of points that are corners of a straight edge, or the tip of a sharp one."""
-    turns, count = _turns(plane), len(plane)
-    sharp = np.flatnonzero(turns > _TIP)
-    candidates = np.flatnonzero((turns > _CORNER) & (turns <= _TIP))
+    angles, count = np.abs(turns(plane)), len(plane)
+    sharp = np.flatnonzero(angles > _TIP)
+    candidates = np.flatnonzero((angles > _CORNER) & (angles <= _TIP))
     paired = [
         corner
         for first, second in zip(candidates, np.roll(candidates, -1), strict=True)
         if first != second
-        and turns[first] + turns[second] > _TWO_CORNERS
+        and angles[first] + angles[second] > _TWO_CORNERS
         # between them the edge is straight
-        and np.all(turns[np.arange(first + 1, first + (second - first) % count) % count] < 0.1)
+        and np.all(angles[np.arange(first + 1, first + (second - first) % count) % count] < 0.1)
         and (second - first) % count < count // 4
         for corner in (first, second)
     ]
@@ -422,7 +416,8 @@ def _places_at(plane: np.ndarray, nose: int, inward: np.ndarray, depths: np.ndar
     return np.interp(depths, depth[rising], numbers[rising].astype(float))
 
 
-def _interpolated(plane: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _interpolated(samples: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Points at places of the samples of a closed curve, linear between them."""
     low = np.floor(places).astype(int)
     share = (places - low)[:, None]
-    return (1.0 - share) * plane[low % len(plane)] + share * plane[(low + 1) % len(plane)]
+    return (1.0 - share) * samples[low % len(samples)] + share * samples[(low + 1) % len(samples)]

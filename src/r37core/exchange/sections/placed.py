@@ -1,7 +1,7 @@
 """Sections of a file in the blade's frame, checked, and what fits where an entry asks for it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -9,15 +9,18 @@ from r37core.base.io import TextFileError
 from r37core.base.units import LENGTH_UNITS
 from r37core.blade.definition import SectionsDefinition
 from r37core.blade.profile import BladeShapeError
-from r37core.blade.section_curve import CurvePart, SectionCurve
+from r37core.blade.section_curve import SectionCurve
 from r37core.blade.sense import sense_of_line
 from r37core.exchange.orientation import Orientation, fitting_units
 from r37core.exchange.refusal import ImportRefused
 
+from .plausible import check_points, check_succession
 from .section_file import FileSection, SectionFile
 
 ASKED = "?"
 """Value of a key that asks what fits."""
+OWN = "sections"
+"""Value of hub and tip that ends the blade with its first or last section, whatever lies next to the file."""
 
 _REVOLUTION = 1e-4
 """Distance (m) up to which the last section lies on a surface of revolution, as the tip of a mesh."""
@@ -26,26 +29,19 @@ _MERIDIAN = 4
 _SHARES = np.linspace(0.0, 1.0, 201)
 
 Meridians = tuple[tuple[float, float], ...] | None
+Placed = tuple[tuple[tuple[float, float, float], ...], ...]
 
 
-@dataclass(frozen=True)
-class PlacedSections:
-    """Sections from hub to tip as a definition takes them, their lines in the file, and the file's own meridians (z, r)."""
+def placed_sections(file: SectionFile, orientation: Orientation) -> tuple[Placed, tuple[int, ...]]:
+    """Sections from hub to tip, in metres and in the blade's frame, and their lines in the file.
 
-    sections: tuple[tuple[tuple[float, float, float], ...], ...]
-    lines: tuple[int, ...]
-    hub: Meridians
-    tip: Meridians
-
-
-def placed_sections(file: SectionFile, orientation: Orientation) -> PlacedSections:
-    """Sections in metres and in the blade's frame. Raises ImportRefused for a blade of no plausible size or place."""
+    Raises ImportRefused for a blade of no plausible size or place.
+    """
     points = [orientation.points_to_blade(section.points) for section in file.sections]
     orientation.check_place(np.concatenate(points))
     order = _outwards(points)
-    hub, tip = (None if meridian is None else placed_meridian(meridian, orientation) for meridian in (file.hub, file.tip))
     sections = tuple(tuple(map(tuple, points[number].tolist())) for number in order)
-    return PlacedSections(sections, tuple(file.sections[number].line for number in order), hub, tip)
+    return sections, tuple(file.sections[number].line for number in order)
 
 
 def placed_meridian(points: np.ndarray, orientation: Orientation) -> Meridians:
@@ -69,22 +65,28 @@ def meridian_along(points: Meridians, curves: Sequence[SectionCurve]) -> Meridia
     return tuple(point for number, point in enumerate(kept) if number == 0 or point[0] != kept[number - 1][0])
 
 
-def check_curves(definition: SectionsDefinition, lines: Sequence[int]) -> None:
-    """Refuse sections that are none, with TextFileError at their lines, or that do not follow each other, BladeShapeError."""
-    if len(definition.sections) == len(lines):
-        for number, line in enumerate(lines):
-            try:
-                definition.curve(number)
-            except BladeShapeError as error:
-                raise TextFileError(line, str(error)) from None
+def check_curves(definition: SectionsDefinition, lines: Sequence[int], plausible: bool) -> None:
+    """Refuse sections that are none, with TextFileError at their lines, or that do not follow each other, BladeShapeError.
+
+    `plausible`: refuse those that no blade has, too.
+    """
+    for number, line in enumerate(lines):
+        try:
+            curve = definition.curve(number)
+            if plausible:
+                check_points(curve)
+        except BladeShapeError as error:
+            raise TextFileError(line, str(error)) from None
     definition.places()
+    if plausible:
+        check_succession(definition.curves, lines)
 
 
 def check_tip(definition: SectionsDefinition) -> None:
     """Refuse a last section that ends the blade and is not on a surface of revolution; BladeShapeError with a tip that fits."""
     if definition.tip is not None:
         return
-    radius, _, z = np.concatenate([side.point(_SHARES) for side in _sides(definition.curves[-1])], axis=1)
+    radius, z = _meridian_of(definition.curves[-1])
     # both sides of a surface of revolution share a meridian, which may be curved
     off = np.abs(radius - np.polynomial.Polynomial.fit(z, radius, _MERIDIAN)(z)).max()
     if off > _REVOLUTION:
@@ -115,40 +117,58 @@ def check_sections_sense(definition: SectionsDefinition) -> None:
         )
 
 
-def fitting_unit(file: SectionFile, orientation: Orientation) -> str:
-    """Line that answers for length_unit, with the sizes that follow from it; `orientation` has any unit."""
+def fitting_unit(file: SectionFile, orientation: Orientation, stated: str | None) -> tuple[str, str]:
+    """The `stated` or the likeliest unit, and the line that answers so, with the sizes that follow; `orientation` has any unit.
+
+    Raises ImportRefused where no unit fits.
+    """
     points = np.concatenate([section.points for section in file.sections])
     placed = replace(orientation, length_unit=1.0).points_to_blade(points)
     radius = np.hypot(placed[:, 0], placed[:, 1])
     # no program writes these
-    units = sorted(fitting_units(float(np.ptp(radius))), key=lambda unit: unit in ("ft", "um"))
+    units = sorted(fitting_units(float(np.ptp(radius))), key=lambda unit: (unit != stated, unit in ("ft", "um")))
     if not units:
-        return f"no unit fits sections from {radius.min():.5g} to {radius.max():.5g} from the axis; give metres per unit"
+        found = f"found '{ASKED}', and no unit that fits sections from {radius.min():.5g} to {radius.max():.5g} from the axis"
+        raise ImportRefused(f"{found}; give metres per unit", "length_unit")
     sizes = [f"{unit} ({radius.min() * LENGTH_UNITS[unit]:.4g} to {radius.max() * LENGTH_UNITS[unit]:.4g} m)" for unit in units]
-    return f"length_unit: {units[0]}; by the radii of the sections these are possible: {', '.join(sizes)}"
+    return units[0], f"length_unit: {units[0]}; by the radii of the sections these are possible: {', '.join(sizes)}"
 
 
-def fitting_rotation(sections: Sequence[FileSection], orientation: Orientation) -> str:
-    """Line that answers for rotation: by the leading edge of the last section, which is ahead."""
+def fitting_rotation(sections: Sequence[FileSection], orientation: Orientation) -> tuple[str, str]:
+    """Rotation by the leading edge of the last section, which is ahead, and the line that answers so."""
     points = [orientation.points_to_blade(section.points) for section in sections]
     tip = points[_outwards(points)[-1]]
     sense = sense_of_line(SectionCurve(tip, "the last section").camber_line(_SHARES))
     if (leads := sense.leads()) is None:
-        return f"the tip's stagger of {np.degrees(sense.stagger):.1f} degrees tells no rotation; give positive or negative"
+        unknown = f"the tip's stagger of {np.degrees(sense.stagger):.1f} degrees tells no rotation; give positive or negative"
+        return orientation.rotation, unknown
     other = {"positive": "negative", "negative": "positive"}[orientation.rotation]
-    return f"rotation: {orientation.rotation if leads else other}, with the leading edge ahead"
+    fitting = orientation.rotation if leads else other
+    return fitting, f"rotation: {fitting}, with the leading edge ahead"
+
+
+def fitting_end(own: np.ndarray | str | None, curve: SectionCurve) -> str:
+    """Line that answers for hub or tip: the file's own meridian, of this name, or what its first or last section needs."""
+    if own is not None:
+        return f"leave out, for {own if isinstance(own, str) else 'that of the file'}"
+    return (
+        f"{fitting_surface(curve)} or {OWN}, where the passage ends with this section, at r {curve.radius:.5g} m; sections "
+        "that reach beyond it, as those of CAD do, need its own radius_m, cone_zr_m or meridian"
+    )
 
 
 def fitting_surface(curve: SectionCurve) -> str:
     """The cone next to a section as an entry has it."""
-    radius, _, z = np.concatenate([side.point(_SHARES) for side in _sides(curve)], axis=1)
+    radius, z = _meridian_of(curve)
     line = np.polynomial.Polynomial.fit(z, radius, 1)
     ends = ", ".join(f"[{place:.7f}, {line(place):.7f}]" for place in (z.min(), z.max()))
     return f"{{ cone_zr_m: [{ends}] }}"
 
 
-def _sides(curve: SectionCurve) -> tuple[CurvePart, CurvePart]:
-    return curve.pressure, curve.suction
+def _meridian_of(curve: SectionCurve) -> tuple[np.ndarray, np.ndarray]:
+    """Radii and axial places (m) of points of both sides."""
+    radius, _, z = np.concatenate([side.point(_SHARES) for side in (curve.pressure, curve.suction)], axis=1)
+    return radius, z
 
 
 def _outwards(points: Sequence[np.ndarray]) -> list[int]:
