@@ -103,7 +103,7 @@ class SectionsEntry(ShapeKeys, Oriented):
         sections, lines = placed_sections(content, orientation)
         definition = SectionsDefinition(name, sections, pressure_forward=self.pressure_side == "forward")
         check_curves(definition, lines, check_sense)
-        ends: list[Meridians] = []
+        ends: dict[str, Any] = {}
         for key, in_file, number in (("hub", content.hub, 0), ("tip", content.tip, -1)):
             end = getattr(self, key)
             if end in (None, ASKED):
@@ -111,11 +111,10 @@ class SectionsEntry(ShapeKeys, Oriented):
                 end = str(Path(self.sections).with_name(beside)) if beside else in_file
             if getattr(self, key) == ASKED:
                 answers[key] = f"{key}: {fitting_end(end, definition.curves[number])}"
-            else:
-                ends.append(_meridian(key, end, orientation, root))
+            ends[key] = end
         if answers:
             raise ImportRefused(f"found '{ASKED}'; what fits: {'; '.join(answers.values())}", next(iter(answers)))
-        hub, tip = (meridian_along(end, definition.curves) for end in ends)
+        hub, tip = (meridian_along(_meridian(key, ends[key], orientation, root), definition.curves) for key in ends)
         definition = SectionsDefinition(name, sections, hub, tip, definition.pressure_forward)
         definition.places()
         check_tip(definition)
