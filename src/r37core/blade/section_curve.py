@@ -29,9 +29,6 @@ _THINNEST = 0.05
 _DEEPEST = 0.25
 """Share of the chord within which an edge has to begin."""
 
-_PAIRS = 10**6
-"""Pairs of pieces that are compared at once, for the memory."""
-
 Point = tuple[float, float, float]
 
 
@@ -80,8 +77,8 @@ class SectionCurve:
 
     `points`: shape (n, 3), m, in the blade's frame, in their order either way round, the first not repeated at the end;
     `label`: for messages; `pressure_forward`: whether the pressure side looks along the rotation, towards smaller angles.
-    Attributes: `cone` through the points, `pressure` and `suction` side from the leading edge on, `leading_edge`,
-    `trailing_edge`. Raises BladeShapeError for a curve that crosses itself or has no two edges.
+    Attributes: `cone` through the points, `outline` on it unrolled, shape (n, 2), `pressure` and `suction` side from the
+    leading edge on, `leading_edge`, `trailing_edge`. Raises BladeShapeError for a curve that crosses itself or lacks an edge.
     """
 
     def __init__(self, points: Sequence[Point] | np.ndarray, label: str, pressure_forward: bool = True):
@@ -89,24 +86,18 @@ class SectionCurve:
         self.file_points = np.asarray(points, dtype=float)
         self.points = _cylindrical(self.file_points)
         self.cone, self._inlet_z = _cone_through(self.points)
-        plane = self.outline
-        _check_simple(plane, label)
-        self._dense, corners = _sampled(self.points, plane)
+        self._middle = self._meridional(0.5 * (self.points[:, 2].min() + self.points[:, 2].max())), self.points[:, 1].mean()
+        self.outline = self._unrolled(self.points)
+        _check_simple(self.outline, label)
+        self._dense, corners = _sampled(self.points, self.outline)
         self._plane = self._unrolled(self._dense)
         ends = _ends(self._plane, self._dense[:, 2])
         limits = [self._edge_limits(end, other, corners) for end, other in (ends, ends[::-1])]
         self._build_parts(limits, pressure_forward)
 
-    @property
-    def outline(self) -> np.ndarray:
-        """Points on the unrolled cone, shape (n, 2), seen from their middle."""
-        return self._unrolled(self.points)
-
     def _unrolled(self, cylindrical: np.ndarray) -> np.ndarray:
         """Points (r, theta, z) on the unrolled cone, shape (n, 2), seen from the middle of the points."""
-        m0, theta0 = self._meridional(0.5 * (self.points[:, 2].min() + self.points[:, 2].max())), self.points[:, 1].mean()
-        along, across = self.cone.unroll(m0, theta0, self._meridional(cylindrical[:, 2]), cylindrical[:, 1])
-        return np.stack([along, across], axis=1)
+        return np.stack(self.cone.unroll(*self._middle, self._meridional(cylindrical[:, 2]), cylindrical[:, 1]), axis=1)
 
     def _meridional(self, z):
         return (z - self._inlet_z) / np.cos(self.cone.half_angle)
@@ -151,9 +142,7 @@ class SectionCurve:
     def centroid(self) -> tuple[float, float]:
         """Centre of area on the unrolled cone, as (m, theta)."""
         _, along, across = area_and_centroid(*self._plane.T)
-        m0 = self._meridional(0.5 * (self.points[:, 2].min() + self.points[:, 2].max()))
-        direction, distance = np.arctan2(across, along), np.hypot(along, across)
-        m, theta = self.cone.offset(m0, self.points[:, 1].mean(), direction, distance)
+        m, theta = self.cone.offset(*self._middle, np.arctan2(across, along), np.hypot(along, across))
         return float(m), float(theta)
 
     @property
@@ -264,7 +253,8 @@ def _check_simple(plane: np.ndarray, label: str) -> None:
     order = np.argsort(low, kind="stable")
     # pieces cross only where they overlap along the section; few do, so that the cost rises with the number of points
     following = np.searchsorted(low[order], high[order], side="right") - np.arange(count) - 1
-    for places in np.split(np.arange(count), np.searchsorted(np.cumsum(following), np.arange(_PAIRS, following.sum(), _PAIRS))):
+    blocks = np.searchsorted(np.cumsum(following), np.arange(10**6, following.sum(), 10**6))
+    for places in np.split(np.arange(count), blocks):
         earlier = np.repeat(places, following[places])
         starts = np.repeat(np.cumsum(following[places]) - following[places], following[places])
         later = earlier + 1 + np.arange(len(earlier)) - starts

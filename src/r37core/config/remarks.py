@@ -92,12 +92,10 @@ def remarks_on_blades(settings: Settings) -> list[str]:
 
 def _extent_of(definition: SectionsDefinition) -> str:
     """Line on the radii between which sections and blade lie, and what hub and tip cut off."""
-    places, first, last = definition.places(), definition.curve(0).radius, definition.curves[-1].radius
+    places, first, last = definition.places(), definition.curves[0].radius, definition.curves[-1].radius
     below, above = (definition.height / np.ptp(places) * share for share in (-places[0], places[-1] - 1.0))
-    return (
-        f"sections lie from r {first:.4g} to {last:.4g} m, the blade from {first + below:.4g} to {last - above:.4g} m: hub and "
-        f"tip cut off {1e3 * below:z.3g} and {1e3 * above:z.3g} mm"
-    )
+    extent = f"sections lie from r {first:.4g} to {last:.4g} m, the blade from {first + below:.4g} to {last - above:.4g} m"
+    return f"{extent}: hub and tip cut off {1e3 * below:z.3g} and {1e3 * above:z.3g} mm"
 
 
 def _first_few(names: Sequence[str]) -> str:

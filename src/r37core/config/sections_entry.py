@@ -27,7 +27,7 @@ from r37core.exchange.sections.placed import (
     placed_sections,
 )
 from r37core.exchange.sections.section_file import SectionFile, read_meridian, read_section_file
-from r37core.exchange.sections.turbogrid import check_companion, companion_of, length_unit_of, meridian_next_to
+from r37core.exchange.sections.turbogrid import check_companion, companion_of, meridian_next_to
 
 from .blade_sections import CONTACT_IN_WORDS, KINEMATICS_IN_WORDS, Contact, Kinematics, MaterialSection
 from .declaring import si_form
@@ -115,7 +115,7 @@ class SectionsEntry(ShapeKeys, Oriented):
         if answers:
             raise ImportRefused(f"found '{ASKED}'; what fits: {'; '.join(answers.values())}", next(iter(answers)))
         hub, tip = (meridian_along(_meridian(key, ends[key], orientation, root), definition.curves) for key in ends)
-        definition = SectionsDefinition(name, sections, hub, tip, definition.pressure_forward)
+        definition = replace(definition, hub=hub, tip=tip)
         definition.places()
         check_tip(definition)
         if check_sense:
@@ -134,9 +134,8 @@ class SectionsEntry(ShapeKeys, Oriented):
             length_unit=1.0 if self.length_unit == ASKED else self.length_unit,
             rotation="positive" if self.rotation == ASKED else self.rotation,
         )
-        known.check()
         if self.length_unit == ASKED:
-            unit, answers["length_unit"] = fitting_unit(content, known, length_unit_of(companion))
+            unit, answers["length_unit"] = fitting_unit(content, known, companion.get("geometry units", "").lower())
             known = replace(known, length_unit=unit)
         check_companion(companion, known)
         if self.rotation == ASKED:
@@ -149,12 +148,10 @@ def _meridian(key: str, end: EndSurface | np.ndarray | str | None, orientation: 
     """Meridian of hub or tip by a surface, points or a file; ImportRefused for a file that gives none."""
     if isinstance(end, EndSurface):
         return end.meridian()
-    if isinstance(end, np.ndarray):
-        return placed_meridian(end, orientation)
-    if end is None or end == OWN:
+    if end is None or (isinstance(end, str) and end == OWN):
         return None
     try:
-        return placed_meridian(read_meridian(root / end), orientation)
+        return placed_meridian(read_meridian(root / end) if isinstance(end, str) else end, orientation)
     except TextFileError as error:
         raise ImportRefused(f"{end}:{error.line}: {error.reason}", key) from None
     except OSError as error:

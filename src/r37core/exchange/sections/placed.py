@@ -14,7 +14,7 @@ from r37core.blade.sense import sense_of_line
 from r37core.exchange.orientation import Orientation, fitting_units
 from r37core.exchange.refusal import ImportRefused
 
-from .plausible import check_points, check_succession
+from .plausible import UNLESS, check_points, check_succession
 from .section_file import FileSection, SectionFile
 
 ASKED = "?"
@@ -100,27 +100,26 @@ def check_sections_sense(definition: SectionsDefinition) -> None:
     """Refuse a rotation, rotor axis or pressure side that the last section contradicts, with ImportRefused."""
     sense = sense_of_line(definition.curves[-1].camber_line(_SHARES))
     angles = f"stagger {np.degrees(sense.stagger):.1f}, camber {np.degrees(sense.camber):.1f} degrees"
-    unless = "sense_check: false takes the blade as it is"
     fits = sense.fits(definition.pressure_forward)
     if sense.leads() is False:
         raise ImportRefused(
             f"found the tip's trailing edge ahead in the rotation ({angles}); allowed: a leading edge that is ahead, as in "
-            f"compressors and turbines; change rotation{'' if fits else ', or rotor_axis if that points upstream'}; {unless}",
+            f"compressors and turbines; change rotation{'' if fits else ', or rotor_axis if that points upstream'}; {UNLESS}",
             "rotation",
         )
     if fits is False:
         other = "backward" if definition.pressure_forward else "forward"
         raise ImportRefused(
             f"found a convex pressure side ({angles}); give pressure_side: {other}, or change both rotor_axis and rotation if "
-            f"rotor_axis points upstream; {unless}",
+            f"rotor_axis points upstream; {UNLESS}",
             "pressure_side",
         )
 
 
-def fitting_unit(file: SectionFile, orientation: Orientation, stated: str | None) -> tuple[str, str]:
-    """The `stated` or the likeliest unit, and the line that answers so, with the sizes that follow; `orientation` has any unit.
+def fitting_unit(file: SectionFile, orientation: Orientation, stated: str) -> tuple[str, str]:
+    """The `stated` or the likeliest unit, and the line that answers so; ImportRefused where none fits.
 
-    Raises ImportRefused where no unit fits.
+    `orientation` has any unit.
     """
     points = np.concatenate([section.points for section in file.sections])
     placed = replace(orientation, length_unit=1.0).points_to_blade(points)
@@ -135,15 +134,14 @@ def fitting_unit(file: SectionFile, orientation: Orientation, stated: str | None
 
 
 def fitting_rotation(sections: Sequence[FileSection], orientation: Orientation) -> tuple[str, str]:
-    """Rotation by the leading edge of the last section, which is ahead, and the line that answers so."""
+    """Rotation with the leading edge of the last section ahead, and its line; that of `orientation` is positive."""
     points = [orientation.points_to_blade(section.points) for section in sections]
     tip = points[_outwards(points)[-1]]
     sense = sense_of_line(SectionCurve(tip, "the last section").camber_line(_SHARES))
     if (leads := sense.leads()) is None:
-        unknown = f"the tip's stagger of {np.degrees(sense.stagger):.1f} degrees tells no rotation; give positive or negative"
-        return orientation.rotation, unknown
-    other = {"positive": "negative", "negative": "positive"}[orientation.rotation]
-    fitting = orientation.rotation if leads else other
+        found = f"the tip's stagger of {np.degrees(sense.stagger):.1f} degrees tells no rotation"
+        return "positive", f"{found}; give positive or negative"
+    fitting = "positive" if leads else "negative"
     return fitting, f"rotation: {fitting}, with the leading edge ahead"
 
 
@@ -174,5 +172,4 @@ def _meridian_of(curve: SectionCurve) -> tuple[np.ndarray, np.ndarray]:
 def _outwards(points: Sequence[np.ndarray]) -> list[int]:
     """Numbers of the sections as the file has them, backwards where they run from the tip to the hub."""
     radii = [float(np.hypot(part[:, 0], part[:, 1]).mean()) for part in points]
-    order = list(range(len(points)))
-    return order[::-1] if radii[0] > radii[-1] else order
+    return list(range(len(points)))[:: -1 if radii[0] > radii[-1] else 1]

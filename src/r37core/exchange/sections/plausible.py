@@ -16,9 +16,8 @@ _OFF = 0.01
 """Share of the section's length by which no point of a blade lies off the radius of those next to it."""
 _PLACE, _STAGGER, _LENGTH, _CURVATURES = 0.05, 5.0, 0.1, 3.0
 """Deviations of a section, well above those of bent ends: shares of its length, degrees; and of curvatures of the others."""
-_FEWEST = 5
-"""Sections from which on the others tell that one is out of line."""
-_REMEDY = "correct it, or sense_check: false takes the blade as it is"
+UNLESS = "sense_check: false takes the blade as it is"
+"""Advice on a blade that is odd and right."""
 
 
 def check_points(curve: SectionCurve) -> None:
@@ -37,31 +36,33 @@ def check_points(curve: SectionCurve) -> None:
     ):
         if sizes.max() > limit:
             found = text.format(scale * sizes.max(), np.argmax(sizes) + 1)
-            raise BladeShapeError(f"{curve.label}: found {found} of {len(plane)}; {_REMEDY}")
+            raise BladeShapeError(f"{curve.label}: found {found} of {len(plane)}; correct it; {UNLESS}")
 
 
 def check_succession(curves: Sequence[SectionCurve], lines: Sequence[int]) -> None:
     """Raise TextFileError, at its line of `lines`, for the section that lies farthest out of line with the others."""
-    length = 1e3 * float(np.median([curve.pressure.length for curve in curves]))
-    radii = np.array([curve.radius for curve in curves])
-    for what, unit, limit, value in (
-        ("axial place", "mm", _PLACE * length, lambda curve: 1e3 * curve.z),
-        ("place round the axis", "mm", _PLACE * length, lambda curve: 1e3 * curve.radius * curve.centroid[1]),
-        ("stagger", "degrees", _STAGGER, lambda curve: np.degrees(curve.stagger)),
-        ("length", "mm", _LENGTH * length, lambda curve: 1e3 * curve.pressure.length),
+    places = np.array([(curve.radius, curve.z, curve.radius * curve.centroid[1], curve.pressure.length) for curve in curves]).T
+    radii, axial, around, lengths = 1e3 * places
+    length = float(np.median(lengths))
+    for what, unit, limit, values in (
+        ("axial place", "mm", _PLACE * length, axial),
+        ("place round the axis", "mm", _PLACE * length, around),
+        ("stagger", "degrees", _STAGGER, np.degrees([curve.stagger for curve in curves])),
+        ("length", "mm", _LENGTH * length, lengths),
     ):
-        deviations, explained = _deviations(radii, np.array([value(curve) for curve in curves]))
+        deviations, explained = _deviations(radii, values)
         number = int(np.argmax(np.abs(deviations) - explained))
         if abs(deviations[number]) > limit + explained[number]:
             found = f"found its {what} {deviations[number]:+.3g} {unit} off the line through the sections next to it"
-            raise TextFileError(lines[number], f"{curves[number].label}: {found} (allowed: {limit:.3g}); {_REMEDY}")
+            raise TextFileError(lines[number], f"{curves[number].label}: {found} (allowed: {limit:.3g}); correct it; {UNLESS}")
 
 
 def _deviations(radii: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Deviation of each value from the line through its neighbours, and the part that the curvature of the others explains."""
     count = len(radii)
     found = np.zeros((2, count))
-    for number in range(count if count >= _FEWEST else 0):
+    # of fewer than five sections the others do not tell which one is out of line
+    for number in range(count if count >= 5 else 0):
         low, high = (other for other in np.clip(number - 1, 0, count - 3) + np.arange(3) if other != number)
         slope = (values[high] - values[low]) / (radii[high] - radii[low])
         x, y = np.delete(radii, number), np.delete(values, number)

@@ -14,10 +14,8 @@ from r37core.base.io import TextFileError, read_text
 from r37core.blade.profile import BladeShapeError
 
 _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([ed][-+]?[0-9]+)?", re.IGNORECASE)
-_LARGEST = 1e9
-"""Larger than any coordinate in any unit."""
-_EQUAL = 1e-9
-"""Distance of two points that are one, as a share of the section's size."""
+_EQUAL, _LARGEST = 1e-9, 1e9
+"""Distance of two points that are one, as a share of the section's size; a number beyond any coordinate in any unit."""
 
 
 @dataclass(frozen=True)
@@ -66,10 +64,8 @@ def closed(points: np.ndarray) -> np.ndarray:
 
 def joined_sides(side: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Closed curve along one side and back along the other, which may run either way."""
-    forward, backward = (
-        np.linalg.norm(side[-1] - back[0]) + np.linalg.norm(side[0] - back[-1]) for back in (other, other[::-1])
-    )
-    return closed(np.concatenate([side, other if forward <= backward else other[::-1]]))
+    back = min((other, other[::-1]), key=lambda way: np.linalg.norm(side[-1] - way[0]) + np.linalg.norm(side[0] - way[-1]))
+    return closed(np.concatenate([side, back]))
 
 
 _COLUMNS = ("section", "x", "y", "z")
@@ -89,9 +85,8 @@ def read_table(text: str) -> tuple[FileSection, ...]:
         reader.fieldnames = header = [column.strip().lower() for column in reader.fieldnames or []]
         missing = [column for column in _COLUMNS if column not in header]
         if missing:
-            raise TextFileError(
-                1, f"the table lacks the columns {', '.join(missing)}; needed: section, x, y, z, separated by commas"
-            )
+            lacking = f"the table lacks the columns {', '.join(missing)}"
+            raise TextFileError(1, f"{lacking}; needed: section, x, y, z, separated by commas")
         for row in reader:
             if None in row or None in row.values():
                 raise TextFileError(reader.line_num, "the row has more or fewer cells than the first line has columns")
@@ -123,16 +118,15 @@ def read_profiles(text: str) -> tuple[FileSection, ...]:
     """
     profiles: list[tuple[int, list[list[float]]]] = []
     begins = True
-    for number, line in enumerate(text.splitlines(), start=1):
-        stripped = line.strip()
-        if not stripped or stripped.startswith(_REMARK):
+    for number, line in enumerate(map(str.strip, text.splitlines()), start=1):
+        if not line or line.startswith(_REMARK):
             # remarks before the first profile, and several lines in a row, start one
-            begins = begins or stripped.startswith("#")
+            begins = begins or line.startswith("#")
             continue
         if begins:
             profiles.append((number, []))
             begins = False
-        profiles[-1][1].append(point_in(stripped, number))
+        profiles[-1][1].append(point_in(line, number))
     if not profiles:
         raise TextFileError(1, "found no points; needed: x y z in a line each, and a line with # before each profile")
     return tuple(FileSection(closed(np.array(points)), line) for line, points in profiles)
@@ -140,14 +134,13 @@ def read_profiles(text: str) -> tuple[FileSection, ...]:
 
 def read_meridian(file: Path) -> np.ndarray:
     """Points of a hub.curve or shroud.curve, shape (n, 3). Raises TextFileError and OSError."""
-    lines = enumerate(read_text(file).splitlines(), start=1)
-    points = [point_in(line, number) for number, line in lines if line.strip() and not line.strip().startswith(_REMARK)]
+    lines = enumerate(map(str.strip, read_text(file).splitlines()), start=1)
+    points = [point_in(line, number) for number, line in lines if line and not line.startswith(_REMARK)]
     if len(points) < 2:
         raise TextFileError(1, f"found {len(points)} points of a meridian; needed: at least 2, x y z in a line each")
     return np.array(points)
 
 
-_SIDES = ("suction", "pressure")
 _COUNT = re.compile(r"\+?0*[1-9][0-9]{0,8}", re.ASCII)
 _FORMS = ("xyz", "zrth", "rthz")
 """Coordinates of a section: x y z; or z, r and the angle (rad); or r, the angle and z."""
@@ -165,22 +158,16 @@ def read_geomturbo(text: str) -> SectionFile:
     if len(blades) > 1:
         counted = f"found {len(blades)} blades, with suction sides in lines {', '.join(blades)}"
         raise TextFileError(int(blades[1]), f"{counted}; allowed: one, in a file without the others")
-    for number, words in ((number, line.lower().split()) for number, line in lines):
-        if words[0] == "units" and words[1:] not in (["1"], ["1.0"]):
-            found = f"found a factor of the unit, {' '.join(words)}"
-            raise TextFileError(number, f"{found}; allowed: units 1, with coordinates in length_unit; scale them, then write 1")
-    sides = {side: _sections(lines, side) for side in _SIDES}
-    counts = [len(sides[side]) for side in _SIDES]
-    if counts[0] != counts[1]:
-        line = sides["pressure"][0][0]
-        counted = f"found {counts[0]} sections of the suction and {counts[1]} of the pressure side"
-        raise TextFileError(line, f"{counted}; needed: as many of both")
-    sections = [
-        FileSection(joined_sides(suction, pressure), line)
-        for (line, suction), (_, pressure) in zip(sides["suction"], sides["pressure"], strict=True)
-    ]
-    hub, shroud = (_channel(lines, name) for name in ("hub", "shroud"))
-    return SectionFile(tuple(sections), hub, shroud)
+    for number, line in lines:
+        if line.lower().startswith("units") and line.lower().split() not in (["units", "1"], ["units", "1.0"]):
+            raise TextFileError(number, f"found {line}; allowed: units 1, with coordinates in length_unit; scale them, write 1")
+    suction, pressure = (_sections(lines, side) for side in ("suction", "pressure"))
+    if len(suction) != len(pressure):
+        counted = f"found {len(suction)} sections of the suction and {len(pressure)} of the pressure side"
+        raise TextFileError(pressure[0][0], f"{counted}; needed: as many of both")
+    pairs = zip(suction, pressure, strict=True)
+    sections = tuple(FileSection(joined_sides(side, other), line) for (line, side), (_, other) in pairs)
+    return SectionFile(sections, *(_channel(lines, name) for name in ("hub", "shroud")))
 
 
 def _sections(lines: list[Line], side: str) -> list[tuple[int, np.ndarray]]:
@@ -199,11 +186,8 @@ def _section(rest: Iterator[Line], line: int) -> tuple[int, np.ndarray]:
     line, form = _next(rest, line)
     if form.lower() not in _FORMS:
         raise TextFileError(line, f"found coordinates '{form}'; allowed: {', '.join(_FORMS).upper()}")
-    points, first = [], line
-    for _ in range(_count(rest, line)):
-        line, text = _next(rest, line)
-        points.append(point_in(text, line))
-    return first, _cartesian(np.array(points), form.lower())
+    points = [point_in(text, number) for number, text in (_next(rest, line) for _ in range(_count(rest, line)))]
+    return line, _cartesian(np.array(points), form.lower())
 
 
 def _cartesian(points: np.ndarray, form: str) -> np.ndarray:
@@ -232,10 +216,9 @@ def _channel(lines: list[Line], name: str) -> np.ndarray | None:
             inside = False
         elif inside and words[0] == "vertex" and len(words) > 3:
             used.setdefault(text.split(None, 2)[2].rsplit(None, 1)[0], number)
-    missing = [curve for curve in used if curve not in curves]
-    if missing:
-        wanted = f"found no basic curve named {missing[0]} with ZR points, of which the {name} is made"
-        raise TextFileError(used[missing[0]], f"{wanted}; found: {', '.join(curves) or 'none'}")
+    for curve in used.keys() - curves.keys():
+        wanted = f"found no basic curve named {curve} with ZR points, of which the {name} is made"
+        raise TextFileError(used[curve], f"{wanted}; found: {', '.join(curves) or 'none'}")
     # without channel curves the basic curves have their names
     if not used and name not in curves:
         return None
@@ -267,8 +250,8 @@ _READERS: dict[str, Callable[[str], SectionFile]] = {
     ".geomturbo": read_geomturbo,
     ".csv": lambda text: SectionFile(read_table(text)),
 }
-_FEWEST_SECTIONS, _FEWEST_POINTS, _MOST_POINTS = 2, 12, 200_000
-"""Numbers of sections in a file, points of a section, and points in a file."""
+_FEWEST_POINTS, _MOST_POINTS = 12, 200_000
+"""Numbers of points of a section, and of a file."""
 
 
 def read_section_file(file: Path) -> SectionFile:
@@ -290,16 +273,10 @@ def _checked(text: str, suffix: str) -> SectionFile:
         raise TextFileError(1, f"found {lines} lines; allowed: at most {_MOST_POINTS} points")
     content = _READERS[suffix](text)
     for section in content.sections:
-        if len(section.points) < _FEWEST_POINTS:
-            raise TextFileError(
-                section.line, f"found a section of {len(section.points)} points; allowed: at least {_FEWEST_POINTS}"
-            )
-    if len(content.sections) < _FEWEST_SECTIONS:
-        raise TextFileError(
-            content.sections[0].line,
-            f"found {len(content.sections)} section; allowed: at least {_FEWEST_SECTIONS}, from hub to tip",
-        )
-    count = sum(len(section.points) for section in content.sections)
-    if count > _MOST_POINTS:
+        if (count := len(section.points)) < _FEWEST_POINTS:
+            raise TextFileError(section.line, f"found a section of {count} points; allowed: at least {_FEWEST_POINTS}")
+    if len(content.sections) < 2:
+        raise TextFileError(content.sections[0].line, "found 1 section; allowed: at least 2, from hub to tip")
+    if (count := sum(len(section.points) for section in content.sections)) > _MOST_POINTS:
         raise TextFileError(1, f"found {count} points; allowed: at most {_MOST_POINTS}")
     return content

@@ -17,7 +17,7 @@ _WORDS = {"hub": "hub", "tip": "shroud"}
 
 def companion_of(profile: Path) -> dict[str, str]:
     """Entries of the .inf next to a profile that names it, by names in small letters; empty without one. Raises OSError."""
-    for file in sorted(profile.parent.glob("*.inf")) if profile.suffix.lower() in PROFILE_ENDINGS else ():
+    for file in sorted(profile.parent.glob("*.inf")):
         lines = (line.partition(":") for line in file.read_text(encoding="utf-8", errors="replace").splitlines())
         entries = {name.strip().lower(): value.strip() for name, _, value in lines}
         if entries.get("profile data file", "").lower() == profile.name.lower():
@@ -25,18 +25,12 @@ def companion_of(profile: Path) -> dict[str, str]:
     return {}
 
 
-def length_unit_of(companion: Mapping[str, str]) -> str | None:
-    """Unit of the coordinates, a key of LENGTH_UNITS, where the .inf gives it."""
-    unit = companion.get("geometry units", "").lower()
-    return unit if unit in LENGTH_UNITS else None
-
-
 def check_companion(companion: Mapping[str, str], orientation: Orientation) -> None:
     """Raise ImportRefused for a unit or a rotor axis that the .inf contradicts."""
-    unit, axis = length_unit_of(companion), "xyz".find(companion.get("axis of rotation", "-").lower())
-    fits = unit is None or np.isclose(LENGTH_UNITS[unit], orientation.metres_per_unit)
-    aligned = axis < 0 or np.isclose(abs(orientation.rows[2][axis]), 1.0)
-    for key, agrees, other in (("length_unit", fits, unit), ("rotor_axis", aligned, f"the axis {'xyz'[axis]}")):
+    unit, axis = (companion.get(name, "-").lower() for name in ("geometry units", "axis of rotation"))
+    fits = unit not in LENGTH_UNITS or np.isclose(LENGTH_UNITS[unit], orientation.metres_per_unit)
+    aligned = axis not in ("x", "y", "z") or np.isclose(abs(orientation.rows[2]["xyz".index(axis)]), 1.0)
+    for key, agrees, other in (("length_unit", fits, unit), ("rotor_axis", aligned, f"the axis {axis}")):
         if not agrees:
             found = f"found {getattr(orientation, key)}, and {other} in the .inf next to the sections"
             raise ImportRefused(f"{found}; correct one of them", key)
@@ -50,8 +44,10 @@ def meridian_next_to(profile: Path, key: str) -> str | None:
     word = _WORDS[key]
     if named := companion_of(profile).get(f"{word} data file"):
         return named
+    if profile.suffix.lower() not in PROFILE_ENDINGS:
+        return None
     files = [file for file in sorted(profile.parent.iterdir()) if file.suffix.lower() in PROFILE_ENDINGS and file != profile]
-    found = [file.name for file in files if word in file.stem.lower()] if profile.suffix.lower() in PROFILE_ENDINGS else []
+    found = [file.name for file in files if word in file.stem.lower()]
     if (same := profile.name.replace("profile", word)) in found:
         return same
     if len(found) > 1:
