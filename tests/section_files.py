@@ -91,7 +91,8 @@ def geomturbo_text(curves, form="XYZ", channel=""):
             points = curve[: half + 1] if side == "suction" else np.concatenate([curve[half:], curve[:1]])[::-1]
             if form == "ZRTH":
                 points = np.stack([points[:, 2], np.hypot(*points[:, :2].T), np.arctan2(points[:, 1], points[:, 0])], axis=1)
-            lines += [f"# section {number + 1}", form, str(len(points))]
+            # AutoBlade's counts carry a sign
+            lines += [f"# section {number + 1}", form, f"+{len(points)}"]
             lines += ["\t".join(f"{value:.11f}" for value in point) for point in points]
     return "\n".join([*lines, "NI_END nibladegeometry", "NI_END GEOMTURBO"]) + "\n"
 

@@ -1,11 +1,13 @@
 """Blades given by section curves: files, edges and sides, cuts at hub and tip, and what is refused."""
 
+import re
+import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import yaml
-from section_files import CHANNEL, csv_text, curve_text, fan, geomturbo_text, sections_of, turbine
+from section_files import CHANNEL, airfoil, csv_text, curve_text, fan, geomturbo_text, sections_of, stacked, turbine
 from workflow_runs import overlay
 
 import r37
@@ -14,9 +16,10 @@ from r37.run_folder import write_run
 from r37core.base.plain import to_plain
 from r37core.blade.definition import SectionsDefinition, shape_from_plain
 from r37core.blade.geometry_file import read_geometry, write_geometry
-from r37core.blade.profile import BladeShapeError
+from r37core.blade.profile import BladeShapeError, area_and_centroid
 from r37core.blade.section_changes import SpanLaw
 from r37core.config import ConfigError
+from r37core.config.remarks import remarks_of_pipeline
 from r37core.exchange.step_file import write_step
 from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
@@ -37,12 +40,13 @@ def definition_of(curves, **changes):
 def settings_with(config_copy):
     """Settings of a project with a blade Fan, given by a file of this text, and other entries."""
     (config_copy / "sections").mkdir()
+    file = config_copy / "config/blades.yaml"
+    shipped = file.read_text()
 
     def read(text, name="fan.csv", others=(), **changes):
-        (config_copy / "sections" / name).write_text(text)
+        (config_copy / "sections" / name).write_bytes(text if isinstance(text, bytes) else text.encode())
         fan = {"sections": f"sections/{name}", **ENTRY, **changes}
-        with open(config_copy / "config/blades.yaml", "a") as stream:
-            stream.write(yaml.safe_dump({"Fan": fan} | dict(others), sort_keys=False))
+        file.write_text(shipped + yaml.safe_dump({"Fan": fan} | dict(others), sort_keys=False))
         return read_settings(config_copy)
 
     return read
@@ -90,6 +94,22 @@ def test_points_may_run_either_way_and_start_anywhere(turn):
         shapes = [definition_of(several).build(round_edges=True) for several in (curves, [turn(curve) for curve in curves])]
         places = [shape.position(SHARES, SHARES, np.linspace(-1.0, 1.0, 9)) for shape in shapes]
         np.testing.assert_allclose(*places, atol=1e-6)
+
+
+@pytest.mark.parametrize(("trailing", "accuracy"), [("sharp", 5e-4), ("blunt", 5e-3)])
+def test_thin_staggered_tips_keep_their_sides(trailing, accuracy):
+    """Of an oblique trailing edge: the middles of both sides, by their own lengths, lie the other way round."""
+    outline = airfoil(thickness=0.02, camber=0.1, trailing=trailing)[8:]
+    curves = stacked(outline, np.linspace(0.25, 0.28, 3), np.full(3, 0.055), np.radians([55.0, 57.0, 59.0]))
+    area = 0.055**2 * abs(area_and_centroid(*outline.T)[0])
+    assert definition_of(curves).build(round_edges=True).volume() == pytest.approx(0.03 * area, rel=accuracy)
+
+
+def test_the_cost_of_a_section_rises_with_its_points():
+    """A section of 100,000 points: compared in pairs they would take 14 minutes and 80 GB."""
+    start = time.process_time()
+    assert definition_of([fan(count=50_001)[0]]).curve(0).stagger == pytest.approx(np.radians(20.0), abs=0.01)
+    assert time.process_time() - start < 60.0
 
 
 def test_few_points_suffice():
@@ -166,6 +186,61 @@ def test_hub_and_tip_are_cut(settings_with, config_copy):
         r, z = radii(name, 1.0)
         np.testing.assert_allclose(r, 0.44 - z / 60.0, rtol=1e-9)
     np.testing.assert_allclose(radii("Whole", 1.0)[0], 0.45, rtol=1e-9)
+
+
+INF = """!======  CFX-BladeGen Export  ========
+Axis of Rotation: Z
+Number of Blade Sets: 1
+Geometry Units: MM
+Hub Data File: inner.curve
+Shroud Data File: outer.curve
+Profile Data File: R1_Blade.crv
+"""
+
+
+@pytest.mark.parametrize(
+    ("inf", "meridians"),
+    [("", ("hub.crv", "shroud.crv")), ("", ("R1_hub.curve", "shroud_2.crv")), (INF, ("inner.curve", "outer.curve"))],
+)
+def test_meridians_of_turbogrid_cut_the_blade(settings_with, config_copy, inf, meridians):
+    folder = config_copy / "sections"
+    (folder / "BladeGen.inf").write_text(inf)
+    for name, radius in zip(meridians, (160, 440), strict=True):
+        (folder / name).write_text(f"{radius} 0 -300\n{radius} 0 300\n")
+    text = curve_text(fan(), 1e3)
+    settings = settings_with(text, "R1_Blade.crv", length_unit="mm")
+    assert settings.blades["Fan"].definition.hub == ((-0.3, 0.16), (0.3, 0.16))
+    (remark,) = (line for line in remarks_of_pipeline(settings) if line.startswith("Fan: sections"))
+    assert remark.endswith("from r 0.15 to 0.45 m, the blade from 0.16 to 0.44 m: hub and tip cut off 10 and 10 mm")
+    with pytest.raises(ConfigError, match=rf"hub: leave out, for sections/{meridians[0]}; tip: leave out, for sections/"):
+        settings_with(text, "R1_Blade.crv", length_unit="mm", hub="?", tip="?")
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"length_unit": "in"}, r"Fan\.length_unit: found in, and mm in the \.inf next to the sections; correct one"),
+        (
+            {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1]},
+            r"Fan\.rotor_axis: .* and the axis z in the \.inf",
+        ),
+        ({"length_unit": "?"}, r"found '\?'; what fits: length_unit: mm; "),
+        ({"length_unit": "mm"}, r"Fan\.hub: sections/inner\.curve cannot be read: No such file"),
+    ],
+)
+def test_the_inf_of_turbogrid_is_not_contradicted(settings_with, config_copy, changes, message):
+    (config_copy / "sections/BladeGen.inf").write_text(INF)
+    with pytest.raises(ConfigError, match=message):
+        settings_with(curve_text(fan(), 1e3), "R1_Blade.crv", **changes)
+
+
+def test_several_meridians_next_to_a_profile_are_a_question(settings_with, config_copy):
+    for name in ("A_hub.crv", "B_hub.crv"):
+        (config_copy / "sections" / name).write_text("160 0 -300\n160 0 300\n")
+    with pytest.raises(
+        ConfigError, match=r"Fan\.hub: found A_hub\.crv, B_hub\.crv next to the sections; give hub: one of them"
+    ):
+        settings_with(curve_text(fan()), "R1_Blade.crv")
 
 
 def test_a_meridian_has_one_radius_at_every_z(settings_with, config_copy):
@@ -263,6 +338,26 @@ def with_points(places, others):
     return csv_text(curves)
 
 
+def changed_section(change):
+    """The fan with its fourth section changed."""
+    curves = fan()
+    return csv_text([*curves[:3], change(curves[3]), *curves[4:]])
+
+
+def twisted(curve, degrees):
+    """The section turned about the radial line through its middle."""
+    y, z = (curve - curve.mean(axis=0)).T[1:]
+    cosine, sine = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return curve.mean(axis=0) + np.stack(
+        [curve[:, 0] - curve[:, 0].mean(), y * cosine - z * sine, y * sine + z * cosine], axis=1
+    )
+
+
+def with_outlier(curve, axis):
+    """The section with its 31st point 5 mm off."""
+    return np.where((np.arange(len(curve)) == 30)[:, None] & (np.arange(3) == axis), curve + 0.005, curve)
+
+
 def without(text, number, change):
     lines = text.splitlines()
     lines[number] = change(lines[number])
@@ -272,6 +367,64 @@ def without(text, number, change):
 FAN = csv_text(fan())
 CURVE = curve_text(fan())
 TURBO = geomturbo_text(fan())
+CHANNELS = geomturbo_text(fan(), channel=CHANNEL)
+
+
+def row_of(text):
+    """Number of the line in the middle of a section."""
+    lines = text.splitlines()
+    return next(number for number in range(len(lines) // 2, len(lines)) if lines[number - 1].count("0.") == 3)
+
+
+def broken_row(change):
+    """Mutation of a file in a line of coordinates."""
+    return lambda text: without(text, row_of(text), change)
+
+
+def first_number(value):
+    """Change of a line's first coordinate."""
+    return lambda line: re.sub(r"-?\d\.\d+", value, line, count=1)
+
+
+MUTATIONS = {
+    "nan": broken_row(first_number("nan")),
+    "infinite": broken_row(first_number("1e999")),
+    "huge": broken_row(first_number("1e308")),
+    "superscript": broken_row(first_number("\u00b2")),
+    "comma": broken_row(first_number("0,1")),
+    "word": broken_row(lambda line: "end of the section"),
+    "missing number": broken_row(lambda line: re.sub(r"[\s,]*-?\d\.\d+$", "", line)),
+    "zero bytes": broken_row(lambda line: "\0" * 40),
+    "one point far off": broken_row(first_number("9.0")),
+    "truncated": lambda text: text[: int(0.53 * len(text))],
+    "no digits": lambda text: re.sub(r"\d", "", text),
+    "empty": lambda text: "",
+    "blank": lambda text: " \n" * 100,
+    "one line": lambda text: text.replace("\n", " "),
+    "latin-1": lambda text: (text + "# Schaufel f\u00fcr \u00c5").encode("latin-1"),
+    "utf-16": lambda text: text.encode("utf-16"),
+    "a million lines": lambda text: text + "0.1\n" * 10**6,
+}
+ALIKE = {
+    "crlf": lambda text: text.replace("\n", "\r\n"),
+    "byte order mark": lambda text: "\ufeff" + text,
+    "exponents": lambda text: re.sub(r"(?m)(-?\d\.\d+)(?=\s*$)", r"\1D+00", text),
+}
+
+
+@pytest.mark.parametrize(("text", "name"), [(FAN, "fan.csv"), (CURVE, "fan.curve"), (TURBO, "fan.geomTurbo")])
+@pytest.mark.parametrize("mutation", MUTATIONS)
+def test_no_broken_file_ends_in_an_inner_error(settings_with, text, name, mutation):
+    with pytest.raises(ConfigError, match=rf"{re.escape(name)}|Fan\.\w+: ") as refusal:
+        settings_with(MUTATIONS[mutation](text), name)
+    assert len(str(refusal.value).splitlines()) == 1 and len(str(refusal.value)) < 600
+
+
+@pytest.mark.parametrize(("text", "name"), [(FAN, "fan.csv"), (CURVE, "fan.curve"), (TURBO, "fan.geomTurbo")])
+@pytest.mark.parametrize("mutation", ALIKE)
+def test_another_form_of_a_file_is_the_same_blade(settings_with, text, name, mutation):
+    expected, found = (settings_with(form, name).blades["Fan"].definition for form in (text, ALIKE[mutation](text)))
+    assert found == expected
 
 
 @pytest.mark.parametrize(
@@ -282,7 +435,11 @@ TURBO = geomturbo_text(fan())
         ("# nothing\n", "fan.curve", r"fan\.curve:1: blade Fan: found no points"),
         (FAN.replace("section,x", "part,x"), "fan.csv", r"fan\.csv:1: .*lacks the columns section"),
         (without(FAN, 11, lambda line: line.replace("0.", "o.")), "fan.csv", r"fan\.csv:12: .*column x: 'o\.\d+' is not a num"),
-        (without(FAN, 11, lambda line: "0,nan,0,0"), "fan.csv", r"fan\.csv:12: .*column x: 'nan' is not finite"),
+        (
+            without(FAN, 11, lambda line: "0,nan,0,0"),
+            "fan.csv",
+            r"fan\.csv:12: .*column x: 'nan' is not a num.*or leave the poi",
+        ),
         (without(CURVE, 11, lambda line: line[:15]), "fan.curve", r"fan\.curve:12: .*found 2 values; needed: 3"),
         (without(CURVE, 11, lambda line: line + " 1"), "fan.curve", r"fan\.curve:12: .*found 4 numbers; needed: 3"),
         (csv_text(fan()[:1]), "fan.csv", r"fan\.csv:2: .*found 1 section; allowed: at least 2, from hub to tip"),
@@ -291,11 +448,59 @@ TURBO = geomturbo_text(fan())
         (csv_text(section_without_trailing_edge()), "fan.csv", r"fan\.csv:2: .*found no \w+ edge: the curve is as thick"),
         (csv_text([*fan()[:3], *fan()[2:5]]), "fan.csv", r"fan\.csv: blade Fan: section 4 of 6 .*does not lie wholly above"),
         (csv_text(fan(), 1e3), "fan.csv", r"Fan\.length_unit: the blade would be .*fitting units: mm"),
-        (FAN, "fan.dat", r"fan\.dat: blade Fan: found a file of kind '\.dat'; allowed: \.curve, \.geomTurbo, \.csv"),
+        (FAN, "fan.dat", r"fan\.dat: blade Fan: found a file of kind '\.dat'; allowed: \.curve, \.crv, \.geomTurbo, \.csv"),
         (TURBO.replace("pressure", "none"), "fan.geomTurbo", r"fan\.geomTurbo:1: .*found no line 'pressure'"),
         (TURBO.replace("SECTIONAL", "SURFACE"), "fan.geomTurbo", r"fan\.geomTurbo:7: .*found 'SURFACE' under suction"),
         (TURBO.replace("XYZ", "UVW", 1), "fan.geomTurbo", r"fan\.geomTurbo:10: .*coordinates 'UVW'; allowed: XYZ, ZRTH"),
-        (TURBO[: len(TURBO) // 2], "fan.geomTurbo", r"fan\.geomTurbo:\d+: .*"),
+        (TURBO.replace("\n9\n", "\n0\n"), "fan.geomTurbo", r"fan\.geomTurbo:8: .*found '0'; needed: how many sections"),
+        (
+            TURBO.replace("\n9\n", "\n\u00b2\n"),
+            "fan.geomTurbo",
+            r"fan\.geomTurbo:8: .*found '\u00b2'; needed: how many sections",
+        ),
+        (
+            TURBO.replace("units 1", "units 0.001"),
+            "fan.geomTurbo",
+            r"\.geomTurbo:5: .*units 0\.001; allowed: units 1, with coo",
+        ),
+        (
+            TURBO + TURBO,
+            "fan.geomTurbo",
+            r"fan\.geomTurbo:\d+: .*found 2 blades, with suction sides in lines 6, \d+; allowed: one",
+        ),
+        (
+            CHANNELS.replace("NAME thehub", "NAME a"),
+            "fan.geomTurbo",
+            r"\.geomTurbo:2\d: .*no basic curve named thehub.*found: a, ",
+        ),
+        (CHANNELS.replace("ZR\n2\n", "ZR\n0\n"), "fan.geomTurbo", r"fan\.geomTurbo:9: .*found '0'; needed: how many"),
+        (
+            changed_section(lambda curve: np.add(curve, [0.0, 0.0, 0.05])),
+            "fan.csv",
+            r"\.csv:356: .*section 4 of 9 .*axial place \+50 mm",
+        ),
+        (changed_section(lambda curve: curve * [-1.0, -1.0, 1.0]), "fan.csv", r"\.csv:356: .*4 of 9 .*place round the axis -8"),
+        (changed_section(lambda curve: twisted(curve, 10.0)), "fan.csv", r"\.csv:356: .*4 of 9 .*stagger -9\.\d+ degrees off"),
+        (
+            changed_section(lambda curve: curve * [1.0, 1.3, 1.3]),
+            "fan.csv",
+            r"\.csv:356: .*section 4 of 9 .*length \+3\d\.\d mm off",
+        ),
+        (
+            changed_section(lambda curve: np.delete(curve, slice(15, 30), axis=0)),
+            "fan.csv",
+            r"\.csv:356: .*gap of \d+\.?\d* mm after po",
+        ),
+        (
+            changed_section(lambda curve: with_outlier(curve, 2)),
+            "fan.csv",
+            r"\.csv:356: .*4 of 9 .*inward corner of .* at point",
+        ),
+        (
+            changed_section(lambda curve: with_outlier(curve, 0)),
+            "fan.csv",
+            r"\.csv:356: .*4 of 9 .*radius 5 mm off .* at point 31 of",
+        ),
     ],
 )
 def test_a_broken_file_is_one_line(settings_with, text, name, message):
@@ -309,7 +514,9 @@ def test_a_broken_file_is_one_line(settings_with, text, name, message):
     [
         ({"length_unit": "?"}, r"Fan\.length_unit: found '\?'; what fits: length_unit: m; .*: m \(0\.15 to 0\.45 m"),
         ({"rotation": "?"}, r"Fan\.rotation: found '\?'; what fits: rotation: negative"),
-        ({"hub": "?", "tip": "?"}, r"Fan\.hub: .*hub: \{ cone.*; tip: \{ cone_zr_m"),
+        ({"hub": "?", "tip": "?"}, r"Fan\.hub: .*hub: \{ cone.* at r 0\.15 m; sections that reach beyond.*; tip: \{ cone_zr_m"),
+        (dict.fromkeys(("length_unit", "rotation", "hub", "tip"), "?"), r"length_unit: m; .*rotation: neg.*hub: \{.*tip: \{"),
+        ({"hub": "/dev/zero"}, r"Fan\.hub: /dev/zero:1: found more than 64 MB; allowed: a text file"),
         ({"rotation": "positive"}, r"Fan\.rotation: found the tip's trailing edge ahead .*stagger -6\d\.\d.*change rotation"),
         ({"pressure_side": "backward"}, r"Fan\.pressure_side: found a convex pressure side .*give pressure_side: forward"),
         ({"rotor_axis": [0, 0, -1]}, r"Fan\.pressure_side: found a convex .* change both rotor_axis and rotation if rot"),
@@ -343,6 +550,8 @@ def test_a_flat_last_section_needs_a_tip(settings_with):
 
 def test_sense_check_false_takes_it_as_it_is(settings_with):
     assert settings_with(FAN, rotation="positive", sense_check=False).blades["Fan"].has_profiles
+    odd = changed_section(lambda curve: np.delete(np.add(curve, [0.0, 0.0, 0.02]), slice(15, 30), axis=0))
+    assert settings_with(odd, "odd.csv", sense_check=False).blades["Fan"].has_profiles
 
 
 def test_blunt_edges_are_cut_between_the_corners():

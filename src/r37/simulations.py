@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from r37core.base.dataset_file import read_dataset
 from r37core.base.io import FILE_ATTRIBUTES, Named, scratch_folder
 from r37core.config import ConfigError
-from r37core.config.remarks import remarks_on_materials
+from r37core.config.remarks import remarks_on_blades
 from r37core.plans.provenance import Provenance
 from r37core.results.closing import remarks_on_contact, remarks_on_limits
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
@@ -150,7 +150,7 @@ def sweep(
 def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> xr.Dataset:
     """A dataset of the structure of the call's one blade."""
     settings, (blade,) = call.settings, call.blades
-    tell(remarks_on_materials(settings))
+    tell(remarks_on_blades(settings))
     file = structure_file(settings, blade.name, stage, tip_line)
     made = Provenance(settings).structure(Named(blade=blade.name))
     return read_dataset(file).assign_attrs(FILE_ATTRIBUTES | dict(made) | blade.told)

@@ -163,8 +163,14 @@ def as_list(files: str | Sequence[str]) -> list[str]:
 
 
 def read_text(file: Path) -> str:
-    """Text of a UTF-8 file, with or without a byte order mark; TextFileError for another encoding, OSError as `open` does."""
-    data = file.read_bytes()
+    """Text of a UTF-8 file, with or without a byte order mark.
+
+    Raises TextFileError for another encoding or more than 64 MB, as devices have, and OSError as `open` does.
+    """
+    with open(file, "rb") as stream:
+        data = stream.read(2**26 + 1)
+    if len(data) > 2**26:
+        raise TextFileError(1, "found more than 64 MB; allowed: a text file of at most that size")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -63,8 +63,6 @@ class BladeDefinition:
             raise BladeShapeError(f"blade {self.name}: {error}{SMALLER_CHANGES}") from None
 
 
-FEWEST_SECTIONS = 2
-"""Smallest number of sections."""
 _ALONG = np.array([0.0, 0.5, 1.0])
 """Shares of a side at which neighbouring sections are compared."""
 
@@ -108,8 +106,6 @@ class SectionsDefinition:
     def places(self) -> np.ndarray:
         """Fraction of the height from hub to tip at which each section lies; BladeShapeError unless these rise."""
         curves = self.curves
-        if len(curves) < FEWEST_SECTIONS:
-            raise BladeShapeError(f"found {len(curves)} section; allowed: at least {FEWEST_SECTIONS}, from hub to tip")
         for below, above in pairwise(curves):
             rise = above.pressure.point(_ALONG)[0] - below.pressure.point(_ALONG)[0]
             if not np.all(rise > 0.0):

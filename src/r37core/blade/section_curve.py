@@ -18,9 +18,6 @@ import scipy
 from .cone import Cone
 from .profile import BladeShapeError, area_and_centroid
 
-FEWEST_POINTS = 12
-"""Smallest number of points of a section."""
-
 _CORNER, _TIP = np.radians(60.0), np.radians(110.0)
 """Turns of the curve at a point from which on it is a corner, or the tip of a sharp edge."""
 _TWO_CORNERS = np.radians(140.0)
@@ -80,20 +77,19 @@ class SectionCurve:
 
     `points`: shape (n, 3), m, in the blade's frame, in their order either way round, the first not repeated at the end;
     `label`: for messages; `pressure_forward`: whether the pressure side looks along the rotation, towards smaller angles.
-    Attributes: `cone` through the points, `pressure` and `suction` side from the leading edge on, `leading_edge`,
-    `trailing_edge`. Raises BladeShapeError for a curve that crosses itself or has no two edges.
+    Attributes: `cone` through the points, `outline` on it unrolled, shape (n, 2), `pressure` and `suction` side from the
+    leading edge on, `leading_edge`, `trailing_edge`. Raises BladeShapeError for a curve that crosses itself or lacks an edge.
     """
 
     def __init__(self, points: Sequence[Point] | np.ndarray, label: str, pressure_forward: bool = True):
         self.label = label
         self.file_points = np.asarray(points, dtype=float)
-        if len(self.file_points) < FEWEST_POINTS:
-            raise BladeShapeError(f"{label}: found {len(self.file_points)} points; allowed: at least {FEWEST_POINTS}")
         self.points = _cylindrical(self.file_points)
         self.cone, self._inlet_z = _cone_through(self.points)
-        plane = self._unrolled(self.points)
-        _check_simple(plane, label)
-        self._dense, corners = _sampled(self.points, plane)
+        self._middle = self._meridional(0.5 * (self.points[:, 2].min() + self.points[:, 2].max())), self.points[:, 1].mean()
+        self.outline = self._unrolled(self.points)
+        _check_simple(self.outline, label)
+        self._dense, corners = _sampled(self.points, self.outline)
         self._plane = self._unrolled(self._dense)
         ends = _ends(self._plane, self._dense[:, 2])
         limits = [self._edge_limits(end, other, corners) for end, other in (ends, ends[::-1])]
@@ -101,9 +97,7 @@ class SectionCurve:
 
     def _unrolled(self, cylindrical: np.ndarray) -> np.ndarray:
         """Points (r, theta, z) on the unrolled cone, shape (n, 2), seen from the middle of the points."""
-        m0, theta0 = self._meridional(0.5 * (self.points[:, 2].min() + self.points[:, 2].max())), self.points[:, 1].mean()
-        along, across = self.cone.unroll(m0, theta0, self._meridional(cylindrical[:, 2]), cylindrical[:, 1])
-        return np.stack([along, across], axis=1)
+        return np.stack(self.cone.unroll(*self._middle, self._meridional(cylindrical[:, 2]), cylindrical[:, 1]), axis=1)
 
     def _meridional(self, z):
         return (z - self._inlet_z) / np.cos(self.cone.half_angle)
@@ -128,34 +122,27 @@ class SectionCurve:
         count = len(self._dense)
         ahead = self._part(leading.after, _beyond(trailing.before, leading.after, count))
         back = self._part(trailing.after, _beyond(leading.before, trailing.after, count))[::-1]
-        middle_of = [float(np.interp(0.5, np.linspace(0.0, 1.0, len(side)), side[:, 1])) for side in (ahead, back)]
-        ahead_is_pressure = (middle_of[0] < middle_of[1]) == pressure_forward
+        # once round counter-clockwise, the way to the trailing edge is along the side at smaller angles
+        ahead_is_pressure = (area_and_centroid(*self._plane.T)[0] > 0.0) == pressure_forward
         sides = (ahead, back) if ahead_is_pressure else (back, ahead)
         self.pressure, self.suction = (CurvePart.through(side) for side in sides)
         arcs = [self._part(edge.before, _beyond(edge.after, edge.before, count)) for edge in (leading, trailing)]
         # at the leading edge the curve comes from the side that it goes back on
         arcs = [arcs[0][::-1], arcs[1]] if ahead_is_pressure else [arcs[0], arcs[1][::-1]]
         self.leading_edge, self.trailing_edge = (_edge(arc, edge.round) for arc, edge in zip(arcs, limits, strict=True))
-        self._noses = np.array([self._point(edge.nose) for edge in limits])
-
-    def _point(self, place: float) -> np.ndarray:
-        """(r, theta, z) at a place of the dense samples, linear between them."""
-        count, low = len(self._dense), int(np.floor(place))
-        share = place - low
-        return (1.0 - share) * self._dense[low % count] + share * self._dense[(low + 1) % count]
+        self._noses = _interpolated(self._dense, np.array([edge.nose for edge in limits]))
 
     def _part(self, first: float, last: float) -> np.ndarray:
         """Points (r, theta, z) from one place to another, upwards, shape (n, 3)."""
         inner = np.arange(int(np.floor(first)) + 1, int(np.ceil(last)))
-        return np.concatenate([[self._point(first)], self._dense[inner % len(self._dense)], [self._point(last)]])
+        ends = _interpolated(self._dense, np.array([first, last]))
+        return np.concatenate([ends[:1], self._dense[inner % len(self._dense)], ends[1:]])
 
     @cached_property
     def centroid(self) -> tuple[float, float]:
         """Centre of area on the unrolled cone, as (m, theta)."""
         _, along, across = area_and_centroid(*self._plane.T)
-        m0 = self._meridional(0.5 * (self.points[:, 2].min() + self.points[:, 2].max()))
-        direction, distance = np.arctan2(across, along), np.hypot(along, across)
-        m, theta = self.cone.offset(m0, self.points[:, 1].mean(), direction, distance)
+        m, theta = self.cone.offset(*self._middle, np.arctan2(across, along), np.hypot(along, across))
         return float(m), float(theta)
 
     @property
@@ -182,8 +169,7 @@ class SectionCurve:
 
     def camber_line(self, shares: np.ndarray) -> np.ndarray:
         """Points half-way between the sides, shape (n, 3), m, in the blade's frame, from leading to trailing edge."""
-        r, theta, z = 0.5 * (self.pressure.point(shares) + self.suction.point(shares))
-        return np.stack([r * np.cos(theta), r * np.sin(theta), z], axis=1)
+        return _cartesian(0.5 * (self.pressure.point(shares) + self.suction.point(shares)).T)
 
     def rotated(self, angle: float) -> tuple[Point, ...]:
         """Points of the section turned on its cone about its centre of area, so that `angle` (rad) is added to its stagger.
@@ -262,22 +248,30 @@ def _cone_through(points: np.ndarray) -> tuple[Cone, float]:
 def _check_simple(plane: np.ndarray, label: str) -> None:
     """Raise BladeShapeError where the polygon through points, shape (n, 2), crosses itself or comes back to a point."""
     start, end = plane, np.roll(plane, -1, axis=0)
-    count = len(plane)
-    for block in np.array_split(np.arange(count), max(1, count**2 // 10**6)):
-        first, second = (part[block][:, None] for part in (start, end))
-        first_sides = _side(first, second, start[None]) * _side(first, second, end[None])
-        other_sides = _side(start[None], end[None], first) * _side(start[None], end[None], second)
-        # pieces that follow each other share a point, and each pair counts once
-        apart = np.arange(count)[None] - block[:, None]
+    count, along = len(plane), int(np.argmax(np.ptp(plane, axis=0)))
+    low, high = np.minimum(start, end)[:, along], np.maximum(start, end)[:, along]
+    order = np.argsort(low, kind="stable")
+    # pieces cross only where they overlap along the section; few do, so that the cost rises with the number of points
+    following = np.searchsorted(low[order], high[order], side="right") - np.arange(count) - 1
+    blocks = np.searchsorted(np.cumsum(following), np.arange(10**6, following.sum(), 10**6))
+    for places in np.split(np.arange(count), blocks):
+        earlier = np.repeat(places, following[places])
+        starts = np.repeat(np.cumsum(following[places]) - following[places], following[places])
+        later = earlier + 1 + np.arange(len(earlier)) - starts
+        piece, other = np.sort([order[earlier], order[later]], axis=0)
+        first_sides = _side(start[piece], end[piece], start[other]) * _side(start[piece], end[piece], end[other])
+        other_sides = _side(start[other], end[other], start[piece]) * _side(start[other], end[other], end[piece])
+        # pieces that follow each other share a point
+        apart = other - piece
         crossed = (first_sides <= 0.0) & (other_sides <= 0.0) & (apart > 1) & (apart < count - 1)
-        for piece, other in np.argwhere(crossed) + np.array([block[0], 0]):
-            along = end[piece] - start[piece]
-            shares = [(part[other] - start[piece]) @ along / (along @ along) for part in (start, end)]
+        for one, two in sorted(zip(piece[crossed].tolist(), other[crossed].tolist(), strict=True)):
+            way = end[one] - start[one]
+            shares = [(part[two] - start[one]) @ way / (way @ way) for part in (start, end)]
             # pieces on one straight line cross where they overlap
             if max(shares) >= 0.0 and min(shares) <= 1.0:
                 raise BladeShapeError(
-                    f"{label}: the curve crosses itself, between points {piece + 1} and {piece + 2} and points {other + 1} and "
-                    f"{other + 2}; allowed: points in their order, once round"
+                    f"{label}: the curve crosses itself, between points {one + 1} and {one + 2} and points {two + 1} and "
+                    f"{two + 2}; allowed: points in their order, once round"
                 )
 
 
@@ -287,26 +281,26 @@ def _side(start: np.ndarray, end: np.ndarray, points: np.ndarray) -> np.ndarray:
     return np.sign(along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0])
 
 
-def _turns(plane: np.ndarray) -> np.ndarray:
-    """Angle (rad) by which the polygon turns at each point."""
+def turns(plane: np.ndarray) -> np.ndarray:
+    """Angle (rad), positive counter-clockwise, by which the polygon through points, shape (n, 2), turns at each of them."""
     steps = np.roll(plane, -1, axis=0) - plane
     before = np.roll(steps, 1, axis=0)
     cross = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
-    return np.abs(np.arctan2(cross, np.sum(before * steps, axis=1)))
+    return np.arctan2(cross, np.sum(before * steps, axis=1))
 
 
 def _corners(plane: np.ndarray) -> np.ndarray:
     """Numbers of points that are corners of a straight edge, or the tip of a sharp one."""
-    turns, count = _turns(plane), len(plane)
-    sharp = np.flatnonzero(turns > _TIP)
-    candidates = np.flatnonzero((turns > _CORNER) & (turns <= _TIP))
+    angles, count = np.abs(turns(plane)), len(plane)
+    sharp = np.flatnonzero(angles > _TIP)
+    candidates = np.flatnonzero((angles > _CORNER) & (angles <= _TIP))
     paired = [
         corner
         for first, second in zip(candidates, np.roll(candidates, -1), strict=True)
         if first != second
-        and turns[first] + turns[second] > _TWO_CORNERS
+        and angles[first] + angles[second] > _TWO_CORNERS
         # between them the edge is straight
-        and np.all(turns[np.arange(first + 1, first + (second - first) % count) % count] < 0.1)
+        and np.all(angles[np.arange(first + 1, first + (second - first) % count) % count] < 0.1)
         and (second - first) % count < count // 4
         for corner in (first, second)
     ]
@@ -346,6 +340,13 @@ def _ends(plane: np.ndarray, z: np.ndarray) -> tuple[int, int]:
     """Numbers of the two points, among the samples, that are farthest apart, the one upstream first."""
     points = plane[::_PER_INTERVAL]
     hull = _PER_INTERVAL * np.sort(scipy.spatial.ConvexHull(points).vertices)
+    start = plane[hull[np.argmax(np.linalg.norm(plane[hull] - plane[hull[0]], axis=1))]]
+    away = plane[hull] - start
+    chord = away[np.argmax(np.linalg.norm(away, axis=1))]
+    # of many points only those can be farthest apart that are as far from some corner of the box along the chord
+    box = away @ np.array([chord, [-chord[1], chord[0]]]).T
+    reach = np.linalg.norm(np.maximum(box.max(axis=0) - box, box - box.min(axis=0)), axis=1)
+    hull = hull[reach >= (1.0 - 1e-9) * (chord @ chord)]
     distances = scipy.spatial.distance.cdist(plane[hull], plane[hull])
     first, second = (int(hull[number]) for number in np.unravel_index(np.argmax(distances), distances.shape))
     return (first, second) if z[first] <= z[second] else (second, first)
@@ -405,7 +406,8 @@ def _places_at(plane: np.ndarray, nose: int, inward: np.ndarray, depths: np.ndar
     return np.interp(depths, depth[rising], numbers[rising].astype(float))
 
 
-def _interpolated(plane: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _interpolated(samples: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Points at places of the samples of a closed curve, linear between them."""
     low = np.floor(places).astype(int)
     share = (places - low)[:, None]
-    return (1.0 - share) * plane[low % len(plane)] + share * plane[(low + 1) % len(plane)]
+    return (1.0 - share) * samples[low % len(samples)] + share * samples[(low + 1) % len(samples)]

@@ -2,6 +2,9 @@
 
 from collections.abc import Collection, Mapping, Sequence
 
+import numpy as np
+
+from r37core.blade.definition import SectionsDefinition
 from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 from r37core.exchange.importing.file_material import ignored_material
@@ -46,7 +49,7 @@ def remarks_on_input(settings: Settings, changed: Collection[str] = ()) -> list[
 
     `changed`: scenes whose clearance a call has changed.
     """
-    lines = [*remarks_on_speeds(settings), *remarks_on_materials(settings), *remarks_on_laws(settings)]
+    lines = [*remarks_on_speeds(settings), *remarks_on_blades(settings), *remarks_on_laws(settings)]
     lines += [*remarks_on_lobes(settings, changed), *remarks_on_linear_variants(settings)]
     for scene, casing in elastic_casings(settings).items():
         lines.append(remark_on_overtaken_waves(scene, casing, fastest_of(settings, scene)))
@@ -69,19 +72,29 @@ def remarks_on_speeds(settings: Settings) -> list[str]:
     return lines
 
 
-def remarks_on_materials(settings: Settings) -> list[str]:
-    """Remarks on a density or a strength that no alloy has, and on a material of a mesh file that is not used."""
+def remarks_on_blades(settings: Settings) -> list[str]:
+    """Remarks on unusual or unused materials, and on where hub and tip cut sections."""
     blades: dict[str, list[str]] = {}
     for name, blade in settings.blades.items():
         for key, (value, (low, high)) in ({} if blade.material is None else blade.material.unusual).items():
             text = f"material.{key}: found {value:g}; alloys and composites have {low:g} to {high:g}: check its unit"
             blades.setdefault(text, []).append(name)
+        if isinstance(blade.definition, SectionsDefinition):
+            blades.setdefault(_extent_of(blade.definition), []).append(name)
         if isinstance(blade.definition, MeshSource) and blade.material is not None:
             other = ignored_material(blade.definition.file, settings.root, blade.material)
             if other is not None:
                 text = f"{blade.definition.file} has a material of its own ({other.wording}, in its units); it is not used"
                 blades.setdefault(f"{text}, and differs from that of blades.yaml", []).append(name)
     return [f"{_first_few(names)}: {text}" for text, names in blades.items()]
+
+
+def _extent_of(definition: SectionsDefinition) -> str:
+    """Line on the radii between which sections and blade lie, and what hub and tip cut off."""
+    places, first, last = definition.places(), definition.curves[0].radius, definition.curves[-1].radius
+    below, above = (definition.height / np.ptp(places) * share for share in (-places[0], places[-1] - 1.0))
+    extent = f"sections lie from r {first:.4g} to {last:.4g} m, the blade from {first + below:.4g} to {last - above:.4g} m"
+    return f"{extent}: hub and tip cut off {1e3 * below:z.3g} and {1e3 * above:z.3g} mm"
 
 
 def _first_few(names: Sequence[str]) -> str:

@@ -1,9 +1,11 @@
 """Blades in blades.yaml that are given by a file of section curves."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import Discriminator, Field, Tag
 
 from r37core.base.io import TextFileError
@@ -12,18 +14,20 @@ from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused
 from r37core.exchange.sections.placed import (
     ASKED,
+    OWN,
     Meridians,
     check_curves,
     check_sections_sense,
     check_tip,
+    fitting_end,
     fitting_rotation,
-    fitting_surface,
     fitting_unit,
     meridian_along,
     placed_meridian,
     placed_sections,
 )
-from r37core.exchange.sections.section_file import SectionFile, read_meridian_file, read_section_file
+from r37core.exchange.sections.section_file import SectionFile, read_meridian, read_section_file
+from r37core.exchange.sections.turbogrid import check_companion, companion_of, meridian_next_to
 
 from .blade_sections import CONTACT_IN_WORDS, KINEMATICS_IN_WORDS, Contact, Kinematics, MaterialSection
 from .declaring import si_form
@@ -31,9 +35,6 @@ from .imported_entry import LengthUnit, Oriented
 from .section import FileName, LeftOut, Section, left_out, or_section, refused
 from .shape_keys import ShapeKeys
 from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
-
-OWN = "sections"
-"""Value of hub and tip that ends the blade with its first or last section, whatever lies next to the file."""
 
 MeridianPoint = Annotated[list[Annotated[float, Field(ge=-100, le=100)]], Field(min_length=2, max_length=2)]
 
@@ -73,7 +74,7 @@ def _end(which: str, other: str) -> Any:
 class SectionsEntry(ShapeKeys, Oriented):
     """A blade given by section curves, meshed as one with profiles is; with `vary` or `designs` a family."""
 
-    sections: FileName = Field(description=".curve, .geomTurbo, or .csv with section, x, y, z")
+    sections: FileName = Field(description=".curve, .crv, .geomTurbo, or .csv with section, x, y, z")
     length_unit: Annotated[
         Annotated[LengthUnit, Tag("unit")] | Annotated[Literal["?"], Tag("asked")],
         Discriminator(lambda value: "asked" if value == ASKED else "unit"),
@@ -96,28 +97,36 @@ class SectionsEntry(ShapeKeys, Oriented):
 
         Raises ImportRefused with the key to blame, TextFileError and BladeShapeError of the file of sections, OSError.
         """
-        content = read_section_file(root / self.sections)
-        orientation = self._orientation(content)
-        placed = placed_sections(content, orientation)
-        definition = SectionsDefinition(name, placed.sections, pressure_forward=self.pressure_side == "forward")
-        check_curves(definition, placed.lines)
-        answers = {
-            key: f"{key}: {fitting_surface(curve)}, or {OWN}, which ends the blade with its section"
-            for key, curve in (("hub", definition.curves[0]), ("tip", definition.curves[-1]))
-            if getattr(self, key) == ASKED
-        }
-        _refuse_asked(answers)
-        ends = (self._meridian(key, own, orientation, root) for key, own in (("hub", placed.hub), ("tip", placed.tip)))
-        hub, tip = (meridian_along(end, definition.curves) for end in ends)
-        definition = SectionsDefinition(name, placed.sections, hub, tip, definition.pressure_forward)
+        file = root / self.sections
+        content, companion = read_section_file(file), companion_of(file)
+        orientation, answers = self._orientation(content, companion)
+        sections, lines = placed_sections(content, orientation)
+        definition = SectionsDefinition(name, sections, pressure_forward=self.pressure_side == "forward")
+        check_curves(definition, lines, check_sense)
+        ends: dict[str, Any] = {}
+        for key, in_file, number in (("hub", content.hub, 0), ("tip", content.tip, -1)):
+            end = getattr(self, key)
+            if end in (None, ASKED):
+                beside = None if in_file is not None else meridian_next_to(file, key)
+                end = str(Path(self.sections).with_name(beside)) if beside else in_file
+            if getattr(self, key) == ASKED:
+                answers[key] = f"{key}: {fitting_end(end, definition.curves[number])}"
+            ends[key] = end
+        if answers:
+            raise ImportRefused(f"found '{ASKED}'; what fits: {'; '.join(answers.values())}", next(iter(answers)))
+        hub, tip = (meridian_along(_meridian(key, ends[key], orientation, root), definition.curves) for key in ends)
+        definition = replace(definition, hub=hub, tip=tip)
         definition.places()
         check_tip(definition)
         if check_sense:
             check_sections_sense(definition)
         return definition
 
-    def _orientation(self, content: SectionFile) -> Orientation:
-        """Unit and axes. Raises ImportRefused where one is asked for, with what fits, or where directions are parallel."""
+    def _orientation(self, content: SectionFile, companion: Mapping[str, str]) -> tuple[Orientation, dict[str, str]]:
+        """Unit and axes, and a line on each key that asks for what fits, which they have then.
+
+        Raises ImportRefused where directions are parallel, no unit fits, or the .inf next to the sections has others.
+        """
         answers: dict[str, str] = {}
         known = si_form(
             Orientation,
@@ -125,31 +134,26 @@ class SectionsEntry(ShapeKeys, Oriented):
             length_unit=1.0 if self.length_unit == ASKED else self.length_unit,
             rotation="positive" if self.rotation == ASKED else self.rotation,
         )
-        known.check()
         if self.length_unit == ASKED:
-            answers["length_unit"] = fitting_unit(content, known)
+            unit, answers["length_unit"] = fitting_unit(content, known, companion.get("geometry units", "").lower())
+            known = replace(known, length_unit=unit)
+        check_companion(companion, known)
         if self.rotation == ASKED:
-            answers["rotation"] = fitting_rotation(content.sections, known)
-        _refuse_asked(answers)
-        return known
-
-    def _meridian(self, key: str, own: Meridians, orientation: Orientation, root: Path) -> Meridians:
-        """Meridian of hub or tip, `own` where the entry leaves it to the file; ImportRefused for a file that gives none."""
-        end = getattr(self, key)
-        if end is None or end == OWN:
-            return own if end is None else None
-        if isinstance(end, EndSurface):
-            return end.meridian()
-        try:
-            return placed_meridian(read_meridian_file(root / end), orientation)
-        except TextFileError as error:
-            raise ImportRefused(f"{end}:{error.line}: {error.reason}", key) from None
-        except OSError as error:
-            allowed = f"radius_m, cone_zr_m, a file as hub.curve, {OWN}, or {ASKED}"
-            raise ImportRefused(f"{end} cannot be read: {error.strerror}; allowed: {allowed}", key) from None
+            rotation, answers["rotation"] = fitting_rotation(content.sections, known)
+            known = replace(known, rotation=rotation)
+        return known, answers
 
 
-def _refuse_asked(answers: Mapping[str, str]) -> None:
-    """ImportRefused with what fits for keys that ask, if there are any."""
-    if answers:
-        raise ImportRefused(f"found '{ASKED}'; what fits: {'; '.join(answers.values())}", next(iter(answers)))
+def _meridian(key: str, end: EndSurface | np.ndarray | str | None, orientation: Orientation, root: Path) -> Meridians:
+    """Meridian of hub or tip by a surface, points or a file; ImportRefused for a file that gives none."""
+    if isinstance(end, EndSurface):
+        return end.meridian()
+    if end is None or (isinstance(end, str) and end == OWN):
+        return None
+    try:
+        return placed_meridian(read_meridian(root / end) if isinstance(end, str) else end, orientation)
+    except TextFileError as error:
+        raise ImportRefused(f"{end}:{error.line}: {error.reason}", key) from None
+    except OSError as error:
+        allowed = f"radius_m, cone_zr_m, a file as hub.curve, {OWN}, or {ASKED}"
+        raise ImportRefused(f"{end} cannot be read: {error.strerror}; allowed: {allowed}", key) from None

@@ -1,7 +1,7 @@
 """Sections of a file in the blade's frame, checked, and what fits where an entry asks for it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -9,15 +9,18 @@ from r37core.base.io import TextFileError
 from r37core.base.units import LENGTH_UNITS
 from r37core.blade.definition import SectionsDefinition
 from r37core.blade.profile import BladeShapeError
-from r37core.blade.section_curve import CurvePart, SectionCurve
+from r37core.blade.section_curve import SectionCurve
 from r37core.blade.sense import sense_of_line
 from r37core.exchange.orientation import Orientation, fitting_units
 from r37core.exchange.refusal import ImportRefused
 
+from .plausible import UNLESS, check_points, check_succession
 from .section_file import FileSection, SectionFile
 
 ASKED = "?"
 """Value of a key that asks what fits."""
+OWN = "sections"
+"""Value of hub and tip that ends the blade with its first or last section, whatever lies next to the file."""
 
 _REVOLUTION = 1e-4
 """Distance (m) up to which the last section lies on a surface of revolution, as the tip of a mesh."""
@@ -26,26 +29,19 @@ _MERIDIAN = 4
 _SHARES = np.linspace(0.0, 1.0, 201)
 
 Meridians = tuple[tuple[float, float], ...] | None
+Placed = tuple[tuple[tuple[float, float, float], ...], ...]
 
 
-@dataclass(frozen=True)
-class PlacedSections:
-    """Sections from hub to tip as a definition takes them, their lines in the file, and the file's own meridians (z, r)."""
+def placed_sections(file: SectionFile, orientation: Orientation) -> tuple[Placed, tuple[int, ...]]:
+    """Sections from hub to tip, in metres and in the blade's frame, and their lines in the file.
 
-    sections: tuple[tuple[tuple[float, float, float], ...], ...]
-    lines: tuple[int, ...]
-    hub: Meridians
-    tip: Meridians
-
-
-def placed_sections(file: SectionFile, orientation: Orientation) -> PlacedSections:
-    """Sections in metres and in the blade's frame. Raises ImportRefused for a blade of no plausible size or place."""
+    Raises ImportRefused for a blade of no plausible size or place.
+    """
     points = [orientation.points_to_blade(section.points) for section in file.sections]
     orientation.check_place(np.concatenate(points))
     order = _outwards(points)
-    hub, tip = (None if meridian is None else placed_meridian(meridian, orientation) for meridian in (file.hub, file.tip))
     sections = tuple(tuple(map(tuple, points[number].tolist())) for number in order)
-    return PlacedSections(sections, tuple(file.sections[number].line for number in order), hub, tip)
+    return sections, tuple(file.sections[number].line for number in order)
 
 
 def placed_meridian(points: np.ndarray, orientation: Orientation) -> Meridians:
@@ -69,22 +65,28 @@ def meridian_along(points: Meridians, curves: Sequence[SectionCurve]) -> Meridia
     return tuple(point for number, point in enumerate(kept) if number == 0 or point[0] != kept[number - 1][0])
 
 
-def check_curves(definition: SectionsDefinition, lines: Sequence[int]) -> None:
-    """Refuse sections that are none, with TextFileError at their lines, or that do not follow each other, BladeShapeError."""
-    if len(definition.sections) == len(lines):
-        for number, line in enumerate(lines):
-            try:
-                definition.curve(number)
-            except BladeShapeError as error:
-                raise TextFileError(line, str(error)) from None
+def check_curves(definition: SectionsDefinition, lines: Sequence[int], plausible: bool) -> None:
+    """Refuse sections that are none, with TextFileError at their lines, or that do not follow each other, BladeShapeError.
+
+    `plausible`: refuse those that no blade has, too.
+    """
+    for number, line in enumerate(lines):
+        try:
+            curve = definition.curve(number)
+            if plausible:
+                check_points(curve)
+        except BladeShapeError as error:
+            raise TextFileError(line, str(error)) from None
     definition.places()
+    if plausible:
+        check_succession(definition.curves, lines)
 
 
 def check_tip(definition: SectionsDefinition) -> None:
     """Refuse a last section that ends the blade and is not on a surface of revolution; BladeShapeError with a tip that fits."""
     if definition.tip is not None:
         return
-    radius, _, z = np.concatenate([side.point(_SHARES) for side in _sides(definition.curves[-1])], axis=1)
+    radius, z = _meridian_of(definition.curves[-1])
     # both sides of a surface of revolution share a meridian, which may be curved
     off = np.abs(radius - np.polynomial.Polynomial.fit(z, radius, _MERIDIAN)(z)).max()
     if off > _REVOLUTION:
@@ -98,61 +100,76 @@ def check_sections_sense(definition: SectionsDefinition) -> None:
     """Refuse a rotation, rotor axis or pressure side that the last section contradicts, with ImportRefused."""
     sense = sense_of_line(definition.curves[-1].camber_line(_SHARES))
     angles = f"stagger {np.degrees(sense.stagger):.1f}, camber {np.degrees(sense.camber):.1f} degrees"
-    unless = "sense_check: false takes the blade as it is"
     fits = sense.fits(definition.pressure_forward)
     if sense.leads() is False:
         raise ImportRefused(
             f"found the tip's trailing edge ahead in the rotation ({angles}); allowed: a leading edge that is ahead, as in "
-            f"compressors and turbines; change rotation{'' if fits else ', or rotor_axis if that points upstream'}; {unless}",
+            f"compressors and turbines; change rotation{'' if fits else ', or rotor_axis if that points upstream'}; {UNLESS}",
             "rotation",
         )
     if fits is False:
         other = "backward" if definition.pressure_forward else "forward"
         raise ImportRefused(
             f"found a convex pressure side ({angles}); give pressure_side: {other}, or change both rotor_axis and rotation if "
-            f"rotor_axis points upstream; {unless}",
+            f"rotor_axis points upstream; {UNLESS}",
             "pressure_side",
         )
 
 
-def fitting_unit(file: SectionFile, orientation: Orientation) -> str:
-    """Line that answers for length_unit, with the sizes that follow from it; `orientation` has any unit."""
+def fitting_unit(file: SectionFile, orientation: Orientation, stated: str) -> tuple[str, str]:
+    """The `stated` or the likeliest unit, and the line that answers so; ImportRefused where none fits.
+
+    `orientation` has any unit.
+    """
     points = np.concatenate([section.points for section in file.sections])
     placed = replace(orientation, length_unit=1.0).points_to_blade(points)
     radius = np.hypot(placed[:, 0], placed[:, 1])
     # no program writes these
-    units = sorted(fitting_units(float(np.ptp(radius))), key=lambda unit: unit in ("ft", "um"))
+    units = sorted(fitting_units(float(np.ptp(radius))), key=lambda unit: (unit != stated, unit in ("ft", "um")))
     if not units:
-        return f"no unit fits sections from {radius.min():.5g} to {radius.max():.5g} from the axis; give metres per unit"
+        found = f"found '{ASKED}', and no unit that fits sections from {radius.min():.5g} to {radius.max():.5g} from the axis"
+        raise ImportRefused(f"{found}; give metres per unit", "length_unit")
     sizes = [f"{unit} ({radius.min() * LENGTH_UNITS[unit]:.4g} to {radius.max() * LENGTH_UNITS[unit]:.4g} m)" for unit in units]
-    return f"length_unit: {units[0]}; by the radii of the sections these are possible: {', '.join(sizes)}"
+    return units[0], f"length_unit: {units[0]}; by the radii of the sections these are possible: {', '.join(sizes)}"
 
 
-def fitting_rotation(sections: Sequence[FileSection], orientation: Orientation) -> str:
-    """Line that answers for rotation: by the leading edge of the last section, which is ahead."""
+def fitting_rotation(sections: Sequence[FileSection], orientation: Orientation) -> tuple[str, str]:
+    """Rotation with the leading edge of the last section ahead, and its line; that of `orientation` is positive."""
     points = [orientation.points_to_blade(section.points) for section in sections]
     tip = points[_outwards(points)[-1]]
     sense = sense_of_line(SectionCurve(tip, "the last section").camber_line(_SHARES))
     if (leads := sense.leads()) is None:
-        return f"the tip's stagger of {np.degrees(sense.stagger):.1f} degrees tells no rotation; give positive or negative"
-    other = {"positive": "negative", "negative": "positive"}[orientation.rotation]
-    return f"rotation: {orientation.rotation if leads else other}, with the leading edge ahead"
+        found = f"the tip's stagger of {np.degrees(sense.stagger):.1f} degrees tells no rotation"
+        return "positive", f"{found}; give positive or negative"
+    fitting = "positive" if leads else "negative"
+    return fitting, f"rotation: {fitting}, with the leading edge ahead"
+
+
+def fitting_end(own: np.ndarray | str | None, curve: SectionCurve) -> str:
+    """Line that answers for hub or tip: the file's own meridian, of this name, or what its first or last section needs."""
+    if own is not None:
+        return f"leave out, for {own if isinstance(own, str) else 'that of the file'}"
+    return (
+        f"{fitting_surface(curve)} or {OWN}, where the passage ends with this section, at r {curve.radius:.5g} m; sections "
+        "that reach beyond it, as those of CAD do, need its own radius_m, cone_zr_m or meridian"
+    )
 
 
 def fitting_surface(curve: SectionCurve) -> str:
     """The cone next to a section as an entry has it."""
-    radius, _, z = np.concatenate([side.point(_SHARES) for side in _sides(curve)], axis=1)
+    radius, z = _meridian_of(curve)
     line = np.polynomial.Polynomial.fit(z, radius, 1)
     ends = ", ".join(f"[{place:.7f}, {line(place):.7f}]" for place in (z.min(), z.max()))
     return f"{{ cone_zr_m: [{ends}] }}"
 
 
-def _sides(curve: SectionCurve) -> tuple[CurvePart, CurvePart]:
-    return curve.pressure, curve.suction
+def _meridian_of(curve: SectionCurve) -> tuple[np.ndarray, np.ndarray]:
+    """Radii and axial places (m) of points of both sides."""
+    radius, _, z = np.concatenate([side.point(_SHARES) for side in (curve.pressure, curve.suction)], axis=1)
+    return radius, z
 
 
 def _outwards(points: Sequence[np.ndarray]) -> list[int]:
     """Numbers of the sections as the file has them, backwards where they run from the tip to the hub."""
     radii = [float(np.hypot(part[:, 0], part[:, 1]).mean()) for part in points]
-    order = list(range(len(points)))
-    return order[::-1] if radii[0] > radii[-1] else order
+    return list(range(len(points)))[:: -1 if radii[0] > radii[-1] else 1]

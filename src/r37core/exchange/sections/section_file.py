@@ -1,10 +1,9 @@
-"""Files of section curves, by their endings: .curve, .geomTurbo, .csv."""
+"""Files of section curves, by their endings: .curve, .crv, .geomTurbo, .csv."""
 
 import csv
 import io
-import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -12,14 +11,11 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.io import TextFileError, read_text
-from r37core.blade.definition import FEWEST_SECTIONS
 from r37core.blade.profile import BladeShapeError
-from r37core.blade.section_curve import FEWEST_POINTS
 
 _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([ed][-+]?[0-9]+)?", re.IGNORECASE)
-_NOT_FINITE = re.compile(r"[-+]?(nan|inf|infinity)", re.IGNORECASE)
-_EQUAL = 1e-9
-"""Distance of two points that are one, as a share of the section's size."""
+_EQUAL, _LARGEST = 1e-9, 1e9
+"""Distance of two points that are one, as a share of the section's size; a number beyond any coordinate in any unit."""
 
 
 @dataclass(frozen=True)
@@ -41,13 +37,10 @@ class SectionFile:
 
 def number_in(text: str, line: int, what: str) -> float:
     """Number of a cell, with an exponent e or d; TextFileError for another text."""
-    if _NOT_FINITE.fullmatch(text):
-        raise TextFileError(line, f"{what}: '{text}' is not finite; give the coordinate, or leave the point out")
-    if not _NUMBER.fullmatch(text):
-        raise TextFileError(line, f"{what}: '{text}' is not a number; allowed: coordinates such as 0.25 or 2.5e-1")
-    number = float(text.lower().replace("d", "e"))
-    if not math.isfinite(number):
-        raise TextFileError(line, f"{what}: '{text}' is not finite; give the coordinate, or leave the point out")
+    number = float(text.lower().replace("d", "e")) if _NUMBER.fullmatch(text) else np.inf
+    if abs(number) > _LARGEST:
+        allowed = f"coordinates such as 0.25 or 2.5e-1, of at most {_LARGEST:g}"
+        raise TextFileError(line, f"{what}: '{text}' is not a number of a blade; allowed: {allowed}, or leave the point out")
     return number
 
 
@@ -71,15 +64,8 @@ def closed(points: np.ndarray) -> np.ndarray:
 
 def joined_sides(side: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Closed curve along one side and back along the other, which may run either way."""
-    forward, backward = (
-        np.linalg.norm(side[-1] - back[0]) + np.linalg.norm(side[0] - back[-1]) for back in (other, other[::-1])
-    )
-    return closed(np.concatenate([side, other if forward <= backward else other[::-1]]))
-
-
-def closed_section(points: Sequence[Sequence[float]] | np.ndarray, line: int) -> FileSection:
-    """Section of points in their order."""
-    return FileSection(closed(np.asarray(points, dtype=float)), line)
+    back = min((other, other[::-1]), key=lambda way: np.linalg.norm(side[-1] - way[0]) + np.linalg.norm(side[0] - way[-1]))
+    return closed(np.concatenate([side, back]))
 
 
 _COLUMNS = ("section", "x", "y", "z")
@@ -99,9 +85,8 @@ def read_table(text: str) -> tuple[FileSection, ...]:
         reader.fieldnames = header = [column.strip().lower() for column in reader.fieldnames or []]
         missing = [column for column in _COLUMNS if column not in header]
         if missing:
-            raise TextFileError(
-                1, f"the table lacks the columns {', '.join(missing)}; needed: section, x, y, z, separated by commas"
-            )
+            lacking = f"the table lacks the columns {', '.join(missing)}"
+            raise TextFileError(1, f"{lacking}; needed: section, x, y, z, separated by commas")
         for row in reader:
             if None in row or None in row.values():
                 raise TextFileError(reader.line_num, "the row has more or fewer cells than the first line has columns")
@@ -120,7 +105,7 @@ def _joined_section(sides: dict[str, list[list[float]]], line: int) -> FileSecti
     if len(sides) > 2:
         raise TextFileError(line, f"found {len(sides)} values in the column side of one section; allowed: one or two")
     parts = [np.array(points) for points in sides.values()]
-    return closed_section(parts[0], line) if len(parts) == 1 else FileSection(joined_sides(*parts), line)
+    return FileSection(closed(parts[0]) if len(parts) == 1 else joined_sides(*parts), line)
 
 
 _REMARK = ("#", "!", "//")
@@ -133,31 +118,30 @@ def read_profiles(text: str) -> tuple[FileSection, ...]:
     """
     profiles: list[tuple[int, list[list[float]]]] = []
     begins = True
-    for number, line in enumerate(text.splitlines(), start=1):
-        stripped = line.strip()
-        if not stripped or stripped.startswith(_REMARK):
+    for number, line in enumerate(map(str.strip, text.splitlines()), start=1):
+        if not line or line.startswith(_REMARK):
             # remarks before the first profile, and several lines in a row, start one
-            begins = begins or stripped.startswith("#")
+            begins = begins or line.startswith("#")
             continue
         if begins:
             profiles.append((number, []))
             begins = False
-        profiles[-1][1].append(point_in(stripped, number))
+        profiles[-1][1].append(point_in(line, number))
     if not profiles:
         raise TextFileError(1, "found no points; needed: x y z in a line each, and a line with # before each profile")
-    return tuple(closed_section(points, line) for line, points in profiles)
+    return tuple(FileSection(closed(np.array(points)), line) for line, points in profiles)
 
 
-def read_meridian(text: str) -> np.ndarray:
-    """Points of a hub.curve or shroud.curve, shape (n, 3). Raises TextFileError."""
-    lines = enumerate(text.splitlines(), start=1)
-    points = [point_in(line, number) for number, line in lines if line.strip() and not line.strip().startswith(_REMARK)]
+def read_meridian(file: Path) -> np.ndarray:
+    """Points of a hub.curve or shroud.curve, shape (n, 3). Raises TextFileError and OSError."""
+    lines = enumerate(map(str.strip, read_text(file).splitlines()), start=1)
+    points = [point_in(line, number) for number, line in lines if line and not line.startswith(_REMARK)]
     if len(points) < 2:
         raise TextFileError(1, f"found {len(points)} points of a meridian; needed: at least 2, x y z in a line each")
     return np.array(points)
 
 
-_SIDES = ("suction", "pressure")
+_COUNT = re.compile(r"\+?0*[1-9][0-9]{0,8}", re.ASCII)
 _FORMS = ("xyz", "zrth", "rthz")
 """Coordinates of a section: x y z; or z, r and the angle (rad); or r, the angle and z."""
 
@@ -165,27 +149,29 @@ Line = tuple[int, str]
 
 
 def read_geomturbo(text: str) -> SectionFile:
-    """Sections of the first blade of a .geomTurbo of NUMECA and, where it has a channel, points of hub and shroud about z.
+    """Sections of the one blade of a .geomTurbo of NUMECA and, where it has a channel, points of hub and shroud about z.
 
     Raises TextFileError.
     """
     lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
-    sides = {side: _sections(lines, side) for side in _SIDES}
-    counts = [len(sides[side]) for side in _SIDES]
-    if counts[0] != counts[1]:
-        line = sides["pressure"][0][0]
-        counted = f"found {counts[0]} sections of the suction and {counts[1]} of the pressure side"
-        raise TextFileError(line, f"{counted}; needed: as many of both")
-    sections = [
-        FileSection(joined_sides(suction, pressure), line)
-        for (line, suction), (_, pressure) in zip(sides["suction"], sides["pressure"], strict=True)
-    ]
-    hub, shroud = (_channel(lines, name) for name in ("hub", "shroud"))
-    return SectionFile(tuple(sections), hub, shroud)
+    blades = [str(number) for number, line in lines if line.lower() == "suction"]
+    if len(blades) > 1:
+        counted = f"found {len(blades)} blades, with suction sides in lines {', '.join(blades)}"
+        raise TextFileError(int(blades[1]), f"{counted}; allowed: one, in a file without the others")
+    for number, line in lines:
+        if line.lower().startswith("units") and line.lower().split() not in (["units", "1"], ["units", "1.0"]):
+            raise TextFileError(number, f"found {line}; allowed: units 1, with coordinates in length_unit; scale them, write 1")
+    suction, pressure = (_sections(lines, side) for side in ("suction", "pressure"))
+    if len(suction) != len(pressure):
+        counted = f"found {len(suction)} sections of the suction and {len(pressure)} of the pressure side"
+        raise TextFileError(pressure[0][0], f"{counted}; needed: as many of both")
+    pairs = zip(suction, pressure, strict=True)
+    sections = tuple(FileSection(joined_sides(side, other), line) for (line, side), (_, other) in pairs)
+    return SectionFile(sections, *(_channel(lines, name) for name in ("hub", "shroud")))
 
 
 def _sections(lines: list[Line], side: str) -> list[tuple[int, np.ndarray]]:
-    """First line and points of each section of a side of the first blade."""
+    """First line and points of each section of a side."""
     start = next((place for place, (_, text) in enumerate(lines) if text.lower() == side), None)
     if start is None:
         raise TextFileError(1, f"found no line '{side}'; needed: SECTIONAL curves under suction and under pressure")
@@ -200,13 +186,8 @@ def _section(rest: Iterator[Line], line: int) -> tuple[int, np.ndarray]:
     line, form = _next(rest, line)
     if form.lower() not in _FORMS:
         raise TextFileError(line, f"found coordinates '{form}'; allowed: {', '.join(_FORMS).upper()}")
-    points, first = [], line
-    for _ in range(_count(rest, line)):
-        line, text = _next(rest, line)
-        points.append(point_in(text, line))
-    if len(points) < 2:
-        raise TextFileError(first, f"found {len(points)} points of a side; needed: at least 2")
-    return first, _cartesian(np.array(points), form.lower())
+    points = [point_in(text, number) for number, text in (_next(rest, line) for _ in range(_count(rest, line)))]
+    return line, _cartesian(np.array(points), form.lower())
 
 
 def _cartesian(points: np.ndarray, form: str) -> np.ndarray:
@@ -220,7 +201,7 @@ def _channel(lines: list[Line], name: str) -> np.ndarray | None:
     """Points of the basic curves that make the hub or the shroud of the channel, shape (n, 3)."""
     curves: dict[str, np.ndarray] = {}
     current, rest = "", iter(lines)
-    used: list[str] = []
+    used: dict[str, int] = {}
     inside = False
     for number, text in rest:
         words = text.lower().split()
@@ -234,12 +215,14 @@ def _channel(lines: list[Line], name: str) -> np.ndarray | None:
         elif words[:2] == ["ni_end", "channel_curve"]:
             inside = False
         elif inside and words[0] == "vertex" and len(words) > 3:
-            used.append(text.split(None, 2)[2].rsplit(None, 1)[0])
+            used.setdefault(text.split(None, 2)[2].rsplit(None, 1)[0], number)
+    for curve in used.keys() - curves.keys():
+        wanted = f"found no basic curve named {curve} with ZR points, of which the {name} is made"
+        raise TextFileError(used[curve], f"{wanted}; found: {', '.join(curves) or 'none'}")
     # without channel curves the basic curves have their names
-    parts = [curves[curve] for curve in dict.fromkeys(used or [name]) if curve in curves]
-    if not parts:
+    if not used and name not in curves:
         return None
-    points = np.concatenate(parts)
+    points = np.concatenate([curves[curve] for curve in used or [name]])
     return points[np.concatenate([[True], np.any(np.diff(points, axis=0) != 0.0, axis=1)])]
 
 
@@ -253,67 +236,47 @@ def _next(rest: Iterator[Line], line: int) -> Line:
 
 def _count(rest: Iterator[Line], line: int) -> int:
     number, text = _next(rest, line)
-    if not text.split()[0].isdigit():
-        raise TextFileError(number, f"found '{text}'; needed: how many sections or points follow")
+    # AutoBlade's counts carry a sign
+    if not _COUNT.fullmatch(text.split()[0]):
+        raise TextFileError(number, f"found '{text}'; needed: how many sections or points follow, 1 or more")
     return int(text.split()[0])
 
 
+PROFILE_ENDINGS = (".curve", ".crv")
+"""Endings of the files of TurboGrid and BladeGen, in small letters."""
+
 _READERS: dict[str, Callable[[str], SectionFile]] = {
-    ".curve": lambda text: SectionFile(read_profiles(text)),
+    **dict.fromkeys(PROFILE_ENDINGS, lambda text: SectionFile(read_profiles(text))),
     ".geomturbo": read_geomturbo,
     ".csv": lambda text: SectionFile(read_table(text)),
 }
-_MOST_POINTS = 200_000
-_NEXT_TO = {"hub": "hub", "tip": "shroud"}
-"""Word in the name of the file of a meridian that lies next to a profile.curve."""
+_FEWEST_POINTS, _MOST_POINTS = 12, 200_000
+"""Numbers of points of a section, and of a file."""
 
 
 def read_section_file(file: Path) -> SectionFile:
-    """Sections of a file, and the meridians of hub and tip in it or next to it.
+    """Sections of a file, and the meridians of hub and tip in it.
 
     Raises TextFileError, BladeShapeError for an unknown ending, and OSError.
     """
     suffix = file.suffix.lower()
     if suffix not in _READERS:
-        raise BladeShapeError(f"found a file of kind '{file.suffix}'; allowed: .curve, .geomTurbo, .csv")
-    content = _checked(read_text(file), suffix)
-    if suffix != ".curve":
-        return content
-    hub, tip = (_meridian_next_to(file, word) for word in _NEXT_TO.values())
-    return SectionFile(content.sections, hub, tip)
-
-
-def read_meridian_file(file: Path) -> np.ndarray:
-    """Points of a meridian, shape (n, 3), from a file as hub.curve. Raises TextFileError and OSError."""
-    return read_meridian(read_text(file))
-
-
-def _meridian_next_to(file: Path, word: str) -> np.ndarray | None:
-    """Points of hub.curve or shroud.curve of a profile.curve, named as that is but for this word; None without the file."""
-    other = file.with_name(file.name.replace("profile", word))
-    if other == file or not other.is_file():
-        return None
-    try:
-        return read_meridian_file(other)
-    except TextFileError as error:
-        raise BladeShapeError(f"{other.name}:{error.line}: {error.reason}") from None
+        raise BladeShapeError(f"found a file of kind '{file.suffix}'; allowed: .curve, .crv, .geomTurbo, .csv")
+    return _checked(read_text(file), suffix)
 
 
 @lru_cache(maxsize=8)
 def _checked(text: str, suffix: str) -> SectionFile:
     """Content of a file's text, read once for all designs of a family. Raises TextFileError."""
+    # before the work of reading them
+    if (lines := text.count("\n")) > 2 * _MOST_POINTS:
+        raise TextFileError(1, f"found {lines} lines; allowed: at most {_MOST_POINTS} points")
     content = _READERS[suffix](text)
     for section in content.sections:
-        if len(section.points) < FEWEST_POINTS:
-            raise TextFileError(
-                section.line, f"found a section of {len(section.points)} points; allowed: at least {FEWEST_POINTS}"
-            )
-    if len(content.sections) < FEWEST_SECTIONS:
-        raise TextFileError(
-            content.sections[0].line,
-            f"found {len(content.sections)} section; allowed: at least {FEWEST_SECTIONS}, from hub to tip",
-        )
-    count = sum(len(section.points) for section in content.sections)
-    if count > _MOST_POINTS:
+        if (count := len(section.points)) < _FEWEST_POINTS:
+            raise TextFileError(section.line, f"found a section of {count} points; allowed: at least {_FEWEST_POINTS}")
+    if len(content.sections) < 2:
+        raise TextFileError(content.sections[0].line, "found 1 section; allowed: at least 2, from hub to tip")
+    if (count := sum(len(section.points) for section in content.sections)) > _MOST_POINTS:
         raise TextFileError(1, f"found {count} points; allowed: at most {_MOST_POINTS}")
     return content
