@@ -127,6 +127,19 @@ def test_forces_are_those_of_the_energy(contact):
     assert change == pytest.approx(-2.0 * quadratic.force(u) @ step, rel=1e-6)
 
 
+def test_the_velocity_of_what_follows_is_the_rate_of_its_displacement(contact):
+    blade = Simulation(contact, SPEED, FAR, replace(CHOICE, static_above=0.5)).problem
+    quadratic, followers = blade.contact.quadratic, blade.blade.followers.shape[1]
+    assert followers
+    u, velocity, ahead, behind = np.zeros((4, len(blade.blade.frequencies)))
+    u[:-followers], velocity[:-followers] = np.random.default_rng(0).standard_normal((2, len(u) - followers))
+    ahead[:], behind[:] = u + velocity, u - velocity
+    for displacement in (ahead, behind, u):
+        quadratic.follow(displacement, velocity)
+    # products are of second order: their central difference is exact
+    assert velocity[-followers:] == pytest.approx(0.5 * (ahead - behind)[-followers:], rel=1e-9)
+
+
 @pytest.fixture(scope="module")
 def softening(contact):
     """A blade whose modes soften so far that without a bound a motion beyond 3 mm would grow for ever."""

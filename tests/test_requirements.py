@@ -514,6 +514,42 @@ def test_the_verdict_of_a_run(judged, tmp_path):
     assert lines[2].strip() == "Ref in below meets"
 
 
+def test_each_pair_has_its_own_certainty_in_the_last_lines(tmp_path):
+    pairs = [(blade, scene) for blade in ("A", "B") for scene in ("s", "t")]
+    row = {"requirement": "mass", "verdict": MEETS, "value_lowest": 1.0, "value_highest": 1.0, "margin": 1.0, "unit": "kg"}
+    rows = [{"blade": blade, "scene": scene, "scatter": number, **row} for number, (blade, scene) in enumerate(pairs, start=1)]
+    write_table(pd.DataFrame(rows).assign(note="", members=np.nan, share_of_members=np.nan), tmp_path / "verdict.csv")
+    expected = [
+        f"  {blade} in {scene} meets: mass (scatter {number} kg)" for number, (blade, scene) in enumerate(pairs, start=1)
+    ]
+    assert closing(tmp_path).splitlines()[1:] == expected
+
+
+def test_of_many_pairs_those_that_cannot_be_told_are_counted(tmp_path):
+    verdicts = [MEETS] * 7 + [UNKNOWN] * 2
+    row = {"scene": "s", "requirement": "mass", "note": "unknown"}
+    write_table(
+        pd.DataFrame([{"blade": f"B{i}", "verdict": each, **row} for i, each in enumerate(verdicts)]), tmp_path / "verdict.csv"
+    )
+    assert closing(tmp_path).startswith("7 of 9 pairs of blade and scene meet all requirements: B0 in s, ")
+    assert closing(tmp_path).endswith("; of 2 one cannot tell")
+
+
+@pytest.mark.parametrize(
+    ("end", "where"), [(1050.0, ", the widest range 1000 to 1050 rad/s"), (1099.0, ", 1000 to 1099 rad/s")]
+)
+def test_a_range_that_is_clearly_shorter_than_the_length_is_the_widest_of_several(end, where):
+    row = {"requirement": "above_yield", "verdict": FAILS, "value": 100.0, "margin": -100.0, "unit": "rad/s", "note": ""}
+    row |= dict.fromkeys(("value_lowest", "value_highest"), 100.0) | {"scatter": 0.0, "share_of_members": np.nan}
+    assert reason(pd.Series(row | {"from_rad_s": 1000.0, "to_rad_s": end})) == f"above_yield by 100 rad/s{where}"
+
+
+@pytest.mark.parametrize(("first", "last", "gap"), [(1050.0, 1100.0, 195.0), (1050.0, 1055.0, 5.0), (1049.95, 1055.0, 50.0)])
+def test_only_gaps_that_reach_into_the_operating_range_count(first, last, gap):
+    runs = response().sel(speed=[1000.0, 1050.0, 1055.0, 1250.0, 1300.0])
+    assert Evidence(runs, campbell=campbell(), operating=OperatingRange(first, last)).gap == gap
+
+
 def test_a_verdict_of_a_run_before_is_not_told(judged, tmp_path):
     write_table(judged[0], tmp_path / "verdict.csv")
     write_table(pd.DataFrame({"blade": ["Ref"]}), tmp_path / "operating.csv")
@@ -538,6 +574,10 @@ def test_what_lies_in_the_operating_range(judged):
     assert table["kind"].tolist() == ["crossing", "interaction", "above_yield", "ever_above_yield"]
     assert table["what"].tolist() == ["1B/4", "1B/4", "", ""]
     assert table.iloc[2][["from_rad_s", "to_rad_s", "length_rad_s", "time_share"]].tolist() == [1097.5, 1122.5, 25.0, 0.125]
+    ranged = interactions.assign(scene=["above", "other"], some_revolutions_from_rad_s=1100.0, some_revolutions_to_rad_s=1300.0)
+    table = operating_table(pairs, OperatingRange(1122.45, 1250.0), datasets, ranged)
+    assert table["kind"].tolist() == ["crossing", "interaction", "above_yield", "ever_above_yield"]
+    assert table.iloc[1:3]["from_rad_s"].tolist() == [1122.45] * 2 and table.iloc[1:3]["to_rad_s"].tolist() == [1250.0, 1122.5]
 
 
 def joined(runs, scenes):

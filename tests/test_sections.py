@@ -14,6 +14,7 @@ import r37
 from r37.call_settings import call_of
 from r37.run_folder import write_run
 from r37core.base.plain import to_plain
+from r37core.blade.blade_map import Meridian
 from r37core.blade.definition import SectionsDefinition, shape_from_plain
 from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.profile import BladeShapeError, area_and_centroid
@@ -255,6 +256,16 @@ def test_a_meridian_has_one_radius_at_every_z(settings_with, config_copy):
         definition_of(fan(), hub=back).build(round_edges=True)
 
 
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_meridian_goes_through_its_points_and_straight_on(order):
+    z = np.linspace(0.0, 0.04, 5)
+    meridian = Meridian(np.stack([z, 0.2 + 10.0 * z**2], axis=1)[::order])
+    assert meridian.radius(z) == pytest.approx(0.2 + 10.0 * z**2, rel=1e-12)
+    for end, step in ((z[0], -0.01), (z[-1], 0.01)):
+        assert meridian.radius(end + step) == pytest.approx(meridian.radius(end) + step * meridian.slope(end), rel=1e-12)
+        assert meridian.slope(end + step) == meridian.slope(end)
+
+
 def test_a_geometry_file_and_a_rule_give_the_same_blade(tmp_path):
     shape = definition_of(turbine(), hub=((0.0, 0.301),), tip=((-0.1, 0.358), (0.1, 0.356)), pressure_forward=False)
     assert shape_from_plain(to_plain(shape)) == shape
@@ -336,6 +347,12 @@ def with_points(places, others):
     curves = fan()
     curves[3][places] = curves[3][others]
     return csv_text(curves)
+
+
+def three_sides():
+    """The fan with a column of three sides."""
+    header, *rows = FAN.splitlines()
+    return "\n".join([f"{header},side", *(f"{row},{number % 3}" for number, row in enumerate(rows))])
 
 
 def changed_section(change):
@@ -445,6 +462,8 @@ def test_another_form_of_a_file_is_the_same_blade(settings_with, text, name, mut
         (csv_text(fan()[:1]), "fan.csv", r"fan\.csv:2: .*found 1 section; allowed: at least 2, from hub to tip"),
         (csv_text([curve[::20] for curve in fan()]), "fan.csv", r"fan\.csv:2: .*found a section of 6 points; allowed: at lea"),
         (with_points([20, 40], [40, 20]), "fan.csv", r"\.csv:\d+: .*: section 4 of 9 from the hub: the curve crosses itself"),
+        (with_points([30, 31], [31, 30]), "fan.csv", r"crosses itself, between points 30 and 31 and points 32 and 33"),
+        (three_sides(), "fan.csv", r"\.csv:2: .*found 3 values in the column side of one section; allowed: one or two"),
         (csv_text(section_without_trailing_edge()), "fan.csv", r"fan\.csv:2: .*found no \w+ edge: the curve is as thick"),
         (csv_text([*fan()[:3], *fan()[2:5]]), "fan.csv", r"fan\.csv: blade Fan: section 4 of 6 .*does not lie wholly above"),
         (csv_text(fan(), 1e3), "fan.csv", r"Fan\.length_unit: the blade would be .*fitting units: mm"),

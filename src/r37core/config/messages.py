@@ -32,13 +32,17 @@ def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) ->
     A missing key beside an unknown one is not reported, because the unknown one may be meant for it.
     """
     errors = sorted(error.errors(include_url=False), key=lambda refusal: refusal["type"] != "extra_forbidden")
-    unknown = [refusal["loc"][:-1] for refusal in errors if refusal["type"] == "extra_forbidden"]
+    unknown = {refusal["loc"][:-1] for refusal in errors if refusal["type"] == "extra_forbidden"}
     explained: dict[KeyPath, tuple[KeyPath, KeyPath, str]] = {}
+    # the explained places and all that hold them: a list may have as many errors as entries
+    holding: set[KeyPath] = set()
     for refusal in errors:
         within = _within(content, refusal["loc"], missing=refusal["type"] == "missing")
         path = (*within, *refusal.get("ctx", {}).get("at", ()))
         is_implied = refusal["type"] == "missing" and refusal["loc"][:-1] in unknown
-        if not is_implied and not any(path[: len(other)] == other or other[: len(path)] == path for other in explained):
+        above = [path[:length] for length in range(len(path) + 1)]
+        if not is_implied and path not in holding and explained.keys().isdisjoint(above):
+            holding.update(above)
             explained[path] = _explained(refusal, path, content, model)
     return list(explained.values())
 
