@@ -203,8 +203,11 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
     speeds = runs.response["speed"].values[runs.operates][np.argsort(-near, kind="stable")[:count]].tolist()
     changes = {LOWEST_DAMPING: scene.damped("lowest"), HIGHEST_DAMPING: scene.damped("highest")}
     fast = 0.1 * (scene.casing.rise_revolutions or 0.0)
-    slow, slowest = PUBLISHED_REVOLUTIONS, LONGEST - PUBLISHED_REVOLUTIONS
-    for look, revolutions in ((FAST_RISE, fast), (SLOW_RISE, float(slow)), (SLOWEST_RISE, float(slowest))):
+    rises = {FAST_RISE: fast, SLOW_RISE: float(PUBLISHED_REVOLUTIONS)}
+    if near.max(initial=0.0) < 1.0:
+        # it shows more than the others, which takes nothing from what fails
+        rises[SLOWEST_RISE] = float(LONGEST - PUBLISHED_REVOLUTIONS)
+    for look, revolutions in rises.items():
         changes[look] = replace(scene, casing=replace(scene.casing, rise_revolutions=revolutions))
     for look, changed in changes.items():
         if changed != scene and speeds:
