@@ -107,10 +107,10 @@ def test_thin_staggered_tips_keep_their_sides(trailing, accuracy):
 
 
 def test_the_cost_of_a_section_rises_with_its_points():
-    """A section of 100,000 points: compared in pairs they would take 14 minutes and 80 GB."""
+    """A section of 20,000 points: compared in pairs they take half a minute and 3 GB."""
     start = time.process_time()
-    assert definition_of([fan(count=50_001)[0]]).curve(0).stagger == pytest.approx(np.radians(20.0), abs=0.01)
-    assert time.process_time() - start < 60.0
+    assert definition_of([fan(count=10_001)[0]]).curve(0).stagger == pytest.approx(np.radians(20.0), abs=0.01)
+    assert time.process_time() - start < 8.0
 
 
 def test_few_points_suffice():
@@ -420,7 +420,6 @@ MUTATIONS = {
     "one line": lambda text: text.replace("\n", " "),
     "latin-1": lambda text: (text + "# Schaufel f\u00fcr \u00c5").encode("latin-1"),
     "utf-16": lambda text: text.encode("utf-16"),
-    "a million lines": lambda text: text + "0.1\n" * 10**6,
 }
 ALIKE = {
     "crlf": lambda text: text.replace("\n", "\r\n"),
@@ -457,6 +456,7 @@ def test_another_form_of_a_file_is_the_same_blade(settings_with, text, name, mut
             "fan.csv",
             r"fan\.csv:12: .*column x: 'nan' is not a num.*or leave the poi",
         ),
+        (without(FAN, 11, lambda line: "0,1e308,0,0"), "fan.csv", r"fan\.csv:12: .*'1e308' is not a num.* of at most 1e\+09"),
         (without(CURVE, 11, lambda line: line[:15]), "fan.curve", r"fan\.curve:12: .*found 2 values; needed: 3"),
         (without(CURVE, 11, lambda line: line + " 1"), "fan.curve", r"fan\.curve:12: .*found 4 numbers; needed: 3"),
         (csv_text(fan()[:1]), "fan.csv", r"fan\.csv:2: .*found 1 section; allowed: at least 2, from hub to tip"),
@@ -466,6 +466,7 @@ def test_another_form_of_a_file_is_the_same_blade(settings_with, text, name, mut
         (three_sides(), "fan.csv", r"\.csv:2: .*found 3 values in the column side of one section; allowed: one or two"),
         (csv_text(section_without_trailing_edge()), "fan.csv", r"fan\.csv:2: .*found no \w+ edge: the curve is as thick"),
         (csv_text([*fan()[:3], *fan()[2:5]]), "fan.csv", r"fan\.csv: blade Fan: section 4 of 6 .*does not lie wholly above"),
+        (FAN + "0.1\n" * 10**6, "fan.csv", r"fan\.csv:1: .*found 1\d{6} lines; allowed: at most 200000 points"),
         (csv_text(fan(), 1e3), "fan.csv", r"Fan\.length_unit: the blade would be .*fitting units: mm"),
         (FAN, "fan.dat", r"fan\.dat: blade Fan: found a file of kind '\.dat'; allowed: \.curve, \.crv, \.geomTurbo, \.csv"),
         (TURBO.replace("pressure", "none"), "fan.geomTurbo", r"fan\.geomTurbo:1: .*found no line 'pressure'"),

@@ -264,14 +264,14 @@ def _check_simple(plane: np.ndarray, label: str) -> None:
         # pieces that follow each other share a point
         apart = other - piece
         crossed = (first_sides <= 0.0) & (other_sides <= 0.0) & (apart > 1) & (apart < count - 1)
-        for one, two in sorted(zip(piece[crossed].tolist(), other[crossed].tolist(), strict=True)):
-            way = end[one] - start[one]
-            shares = [(part[two] - start[one]) @ way / (way @ way) for part in (start, end)]
+        for first, second in sorted(zip(piece[crossed].tolist(), other[crossed].tolist(), strict=True)):
+            way = end[first] - start[first]
+            shares = [(part[second] - start[first]) @ way / (way @ way) for part in (start, end)]
             # pieces on one straight line cross where they overlap
             if max(shares) >= 0.0 and min(shares) <= 1.0:
                 raise BladeShapeError(
-                    f"{label}: the curve crosses itself, between points {one + 1} and {one + 2} and points {two + 1} and "
-                    f"{two + 2}; allowed: points in their order, once round"
+                    f"{label}: the curve crosses itself, between points {first + 1} and {first + 2} and points "
+                    f"{second + 1} and {second + 2}; allowed: points in their order, once round"
                 )
 
 

@@ -104,11 +104,11 @@ class SectionsEntry(ShapeKeys, Oriented):
         definition = SectionsDefinition(name, sections, pressure_forward=self.pressure_side == "forward")
         check_curves(definition, lines, check_sense)
         ends: dict[str, Any] = {}
-        for key, in_file, number in (("hub", content.hub, 0), ("tip", content.tip, -1)):
+        for key, included, number in (("hub", content.hub, 0), ("tip", content.tip, -1)):
             end = getattr(self, key)
             if end in (None, ASKED):
-                beside = None if in_file is not None else meridian_next_to(file, key)
-                end = str(Path(self.sections).with_name(beside)) if beside else in_file
+                beside = None if included is not None else meridian_next_to(file, key)
+                end = str(Path(self.sections).with_name(beside)) if beside else included
             if getattr(self, key) == ASKED:
                 answers[key] = f"{key}: {fitting_end(end, definition.curves[number])}"
             ends[key] = end

@@ -127,8 +127,8 @@ def fitting_unit(file: SectionFile, orientation: Orientation, stated: str) -> tu
     # no program writes these
     units = sorted(fitting_units(float(np.ptp(radius))), key=lambda unit: (unit != stated, unit in ("ft", "um")))
     if not units:
-        found = f"found '{ASKED}', and no unit that fits sections from {radius.min():.5g} to {radius.max():.5g} from the axis"
-        raise ImportRefused(f"{found}; give metres per unit", "length_unit")
+        reason = f"found '{ASKED}', and no unit that fits sections from {radius.min():.5g} to {radius.max():.5g} from the axis"
+        raise ImportRefused(f"{reason}; give metres per unit", "length_unit")
     sizes = [f"{unit} ({radius.min() * LENGTH_UNITS[unit]:.4g} to {radius.max() * LENGTH_UNITS[unit]:.4g} m)" for unit in units]
     return units[0], f"length_unit: {units[0]}; by the radii of the sections these are possible: {', '.join(sizes)}"
 
@@ -139,8 +139,8 @@ def fitting_rotation(sections: Sequence[FileSection], orientation: Orientation) 
     tip = points[_outwards(points)[-1]]
     sense = sense_of_line(SectionCurve(tip, "the last section").camber_line(_SHARES))
     if (leads := sense.leads()) is None:
-        found = f"the tip's stagger of {np.degrees(sense.stagger):.1f} degrees tells no rotation"
-        return "positive", f"{found}; give positive or negative"
+        reason = f"the tip's stagger of {np.degrees(sense.stagger):.1f} degrees tells no rotation"
+        return "positive", f"{reason}; give positive or negative"
     fitting = "positive" if leads else "negative"
     return fitting, f"rotation: {fitting}, with the leading edge ahead"
 

@@ -35,8 +35,8 @@ def check_points(curve: SectionCurve) -> None:
         (off, _OFF, 1e3 * length, "a radius {:.3g} mm off that of both neighbours at point {}"),
     ):
         if sizes.max() > limit:
-            found = text.format(scale * sizes.max(), np.argmax(sizes) + 1)
-            raise BladeShapeError(f"{curve.label}: found {found} of {len(plane)}; correct it; {UNLESS}")
+            size = text.format(scale * sizes.max(), np.argmax(sizes) + 1)
+            raise BladeShapeError(f"{curve.label}: found {size} of {len(plane)}; correct it; {UNLESS}")
 
 
 def check_succession(curves: Sequence[SectionCurve], lines: Sequence[int]) -> None:
@@ -53,20 +53,20 @@ def check_succession(curves: Sequence[SectionCurve], lines: Sequence[int]) -> No
         deviations, explained = _deviations(radii, values)
         number = int(np.argmax(np.abs(deviations) - explained))
         if abs(deviations[number]) > limit + explained[number]:
-            found = f"found its {what} {deviations[number]:+.3g} {unit} off the line through the sections next to it"
-            raise TextFileError(lines[number], f"{curves[number].label}: {found} (allowed: {limit:.3g}); correct it; {UNLESS}")
+            reason = f"found its {what} {deviations[number]:+.3g} {unit} off the line through the sections next to it"
+            raise TextFileError(lines[number], f"{curves[number].label}: {reason} (allowed: {limit:.3g}); correct it; {UNLESS}")
 
 
 def _deviations(radii: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Deviation of each value from the line through its neighbours, and the part that the curvature of the others explains."""
     count = len(radii)
-    found = np.zeros((2, count))
+    deviations, explained = np.zeros((2, count))
     # of fewer than five sections the others do not tell which one is out of line
     for number in range(count if count >= 5 else 0):
         low, high = (other for other in np.clip(number - 1, 0, count - 3) + np.arange(3) if other != number)
         slope = (values[high] - values[low]) / (radii[high] - radii[low])
         x, y = np.delete(radii, number), np.delete(values, number)
         curvature = np.abs(np.diff(np.diff(y) / np.diff(x)) / (x[2:] - x[:-2])).max()
-        found[0, number] = values[number] - values[low] - slope * (radii[number] - radii[low])
-        found[1, number] = _CURVATURES * curvature * abs((radii[number] - radii[low]) * (radii[number] - radii[high]))
-    return found[0], found[1]
+        deviations[number] = values[number] - values[low] - slope * (radii[number] - radii[low])
+        explained[number] = _CURVATURES * curvature * abs((radii[number] - radii[low]) * (radii[number] - radii[high]))
+    return deviations, explained

@@ -32,8 +32,8 @@ def check_companion(companion: Mapping[str, str], orientation: Orientation) -> N
     aligned = axis not in ("x", "y", "z") or np.isclose(abs(orientation.rows[2]["xyz".index(axis)]), 1.0)
     for key, agrees, other in (("length_unit", fits, unit), ("rotor_axis", aligned, f"the axis {axis}")):
         if not agrees:
-            found = f"found {getattr(orientation, key)}, and {other} in the .inf next to the sections"
-            raise ImportRefused(f"{found}; correct one of them", key)
+            reason = f"found {getattr(orientation, key)}, and {other} in the .inf next to the sections"
+            raise ImportRefused(f"{reason}; correct one of them", key)
 
 
 def meridian_next_to(profile: Path, key: str) -> str | None:
@@ -47,9 +47,9 @@ def meridian_next_to(profile: Path, key: str) -> str | None:
     if profile.suffix.lower() not in PROFILE_ENDINGS:
         return None
     files = [file for file in sorted(profile.parent.iterdir()) if file.suffix.lower() in PROFILE_ENDINGS and file != profile]
-    found = [file.name for file in files if word in file.stem.lower()]
-    if (same := profile.name.replace("profile", word)) in found:
+    names = [file.name for file in files if word in file.stem.lower()]
+    if (same := profile.name.replace("profile", word)) in names:
         return same
-    if len(found) > 1:
-        raise ImportRefused(f"found {', '.join(found)} next to the sections; give {key}: one of them, or sections", key)
-    return found[0] if found else None
+    if len(names) > 1:
+        raise ImportRefused(f"found {', '.join(names)} next to the sections; give {key}: one of them, or sections", key)
+    return names[0] if names else None
