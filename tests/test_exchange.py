@@ -213,10 +213,11 @@ def test_coordinate_systems_that_have_no_axes(tmp_path, system, message):
         lambda text: re.sub(r"(?m)^\+.{7}", " " * 8, re.sub(r"(?m)(?<!E)\+\w* *$", "", text)),
         lambda text: text.replace("ENDDATA", "END BULK"),
         lambda text: "$ a comment\n" + text.lower().replace("\n", " $ another\n"),
+        lambda text: text.replace("ENDDATA", "CQUAD4,900,2,1,2,3,4,0.,-.015\nCTRIA3,901,2,1,2,3,45.\nENDDATA"),
     ],
 )
 def test_bulk_data_as_other_programs_write_it(tmp_path, change):
-    """Continuation without marks, another end, small letters and comments."""
+    """Continuation without marks, another end, small letters and comments, shells with the angle of their material."""
     write_mesh(plate(), tmp_path / "mesh.bdf")
     expected = read_nastran(tmp_path / "mesh.bdf")
     text = change((tmp_path / "mesh.bdf").read_text())

@@ -20,6 +20,9 @@ from .raw_mesh import RawMesh, solid_blocks
 # meshio 5.3.5 knows the 15-node wedge in its formats but not here, and stops when a mesh has one
 topological_dimension.setdefault("wedge15", 3)
 
+_FIELDS = {"CTRIA3": 6, "CQUAD4": 7, "CTRIA6": 9, "CQUAD8": 11}
+"""Fields up to the last node of shells; meshio takes the material angle after it for a node."""
+
 
 def read_with_meshio(file: Path) -> RawMesh:
     """The mesh of a file in a format of meshio; ImportRefused for whatever meshio does with a file it cannot read."""
@@ -45,7 +48,7 @@ def read_nastran(file: Path) -> RawMesh:
     # with commas and marks, as meshio reads all of them
     lines = [
         f"{','.join(card[:9])}" + "".join(f"\n+,{','.join(card[i : i + 8])}" for i in range(9, len(card), 8))
-        for card in (["BEGIN BULK"], *points, *(card for card in cards if card[0] != "GRID"))
+        for card in (["BEGIN BULK"], *points, *(card[: _FIELDS.get(card[0])] for card in cards if card[0] != "GRID"))
     ]
     return _raw(quietly(meshio.nastran.read, io.StringIO("\n".join([*lines, ""]))))
 
