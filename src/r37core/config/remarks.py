@@ -90,11 +90,12 @@ def remarks_on_blades(settings: Settings) -> list[str]:
 
 
 def _extent_of(definition: SectionsDefinition) -> str:
-    """Line on the radii between which sections and blade lie, and what hub and tip cut off."""
+    """Line on the radii between which sections and blade lie, and what hub and tip cut off or add."""
     places, first, last = definition.places(), definition.curves[0].radius, definition.curves[-1].radius
     below, above = (definition.height / np.ptp(places) * share for share in (-places[0], places[-1] - 1.0))
     extent = f"sections lie from r {first:.4g} to {last:.4g} m, the blade from {first + below:.4g} to {last - above:.4g} m"
-    return f"{extent}: hub and tip cut off {1e3 * below:z.3g} and {1e3 * above:z.3g} mm"
+    hub, tip = (f"{'adds' if share < 0.0 else 'cuts off'} {1e3 * abs(share):.3g} mm" for share in (below, above))
+    return f"{extent}: the hub {hub}, the tip {tip}"
 
 
 def _first_few(names: Sequence[str]) -> str:

@@ -159,8 +159,9 @@ def read_geomturbo(text: str) -> SectionFile:
         counted = f"found {len(blades)} blades, with suction sides in lines {', '.join(blades)}"
         raise TextFileError(int(blades[1]), f"{counted}; allowed: one, in a file without the others")
     for number, line in lines:
-        if line.lower().startswith("units") and line.lower().split() not in (["units", "1"], ["units", "1.0"]):
-            raise TextFileError(number, f"found {line}; allowed: units 1, with coordinates in length_unit; scale them, write 1")
+        name, *factor = line.lower().split()
+        if name in ("units", "units-factor") and factor not in (["1"], ["1.0"]):
+            raise TextFileError(number, f"found {line}; allowed: 1, with coordinates in length_unit; scale them, and write 1")
     suction, pressure = (_sections(lines, side) for side in ("suction", "pressure"))
     if len(suction) != len(pressure):
         counted = f"found {len(suction)} sections of the suction and {len(pressure)} of the pressure side"
