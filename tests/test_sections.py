@@ -197,11 +197,17 @@ Hub Data File: inner.curve
 Shroud Data File: outer.curve
 Profile Data File: R1_Blade.crv
 """
+MERIDIANS = ("inner.curve", "outer.curve")
 
 
 @pytest.mark.parametrize(
     ("inf", "meridians"),
-    [("", ("hub.crv", "shroud.crv")), ("", ("R1_hub.curve", "shroud_2.crv")), (INF, ("inner.curve", "outer.curve"))],
+    [
+        ("", ("hub.crv", "shroud.crv")),
+        ("", ("R1_hub.curve", "shroud_2.crv")),
+        (INF, MERIDIANS),
+        (INF.replace("inner", r"C:\a\inner").replace("outer", "../a/outer").replace("R1", "a/R1"), MERIDIANS),
+    ],
 )
 def test_meridians_of_turbogrid_cut_the_blade(settings_with, config_copy, inf, meridians):
     folder = config_copy / "sections"

@@ -1,7 +1,7 @@
 """Files of TurboGrid and BladeGen next to a blade's profile: meridians, and the .inf with unit, axis and names of files."""
 
 from collections.abc import Mapping
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 import numpy as np
 
@@ -16,10 +16,13 @@ _WORDS = {"hub": "hub", "tip": "shroud"}
 
 
 def companion_of(profile: Path) -> dict[str, str]:
-    """Entries of the .inf next to a profile that names it, by names in small letters; empty without one. Raises OSError."""
+    """Entries of the .inf next to a profile that names it, by names in small letters; empty without one. Raises OSError.
+
+    Of files only the names count, as their folders may be those of another machine.
+    """
     for file in sorted(profile.parent.glob("*.inf")):
         lines = (line.partition(":") for line in file.read_text(encoding="utf-8", errors="replace").splitlines())
-        entries = {name.strip().lower(): value.strip() for name, _, value in lines}
+        entries = {name.strip().lower(): PureWindowsPath(value.strip()).name for name, _, value in lines}
         if entries.get("profile data file", "").lower() == profile.name.lower():
             return entries
     return {}
