@@ -12,12 +12,11 @@ from integration_cases import ABRADABLE, DIRECT
 from r37core.contact.scene import DampingRow
 from r37core.requirements import looks as further_runs
 from r37core.requirements.choice import WIDTH, Requirements
-from r37core.requirements.evidence import Evidence
+from r37core.requirements.evidence import HALF_FRICTION, Evidence, beyond_model
 from r37core.requirements.judging import (
     DOWN,
     FAILS,
     FAST_RISE,
-    HALF_FRICTION,
     HALF_STEP,
     HIGHEST_DAMPING,
     LARGE_CHANGES,
@@ -208,6 +207,10 @@ def test_half_the_friction_is_tried_of_the_run_that_diverged_soonest(lined):
         judgement["verdict"] == FAILS
         and f"{told}; with half the friction this run ends: friction drives it" in judgement["note"]
     )
+    # nor does it take the blade beyond the model's limits
+    melting = expected.assign(friction_power=("speed", [1e9]), melting_power=1.0)
+    assert beyond_model(replace(runs, looks={REST: melting}))
+    assert not beyond_model(replace(runs, looks={HALF_FRICTION: melting}))
     same = replace(runs, looks={HALF_FRICTION: expected.assign(status=("speed", [int(RunStatus.DIVERGED)]))})
     assert same.divergence == told
 

@@ -151,6 +151,7 @@ def _note_lines(loader: _Loader, node: yaml.Node, path: KeyPath, lines: dict[Key
 
 
 def _merge(loader: _Loader, node: yaml.MappingNode) -> None:
+    """Put the keys of mappings that << names before those of the mapping `node`, which win."""
     names: set[str] = set()
     for key, value in node.value:
         if key.value == "<<" and key.style is None:

@@ -67,7 +67,7 @@ def remarks_on_speeds(settings: Settings) -> list[str]:
     if fastest > highest:
         lines.append(
             f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
-            f"Campbell diagrams are made for speeds up to that; raise it to what is run"
+            "Campbell diagrams are made for speeds up to that; raise it to what is run"
         )
     return lines
 

@@ -204,7 +204,8 @@ def soonest_divergence(evidence: Evidence) -> xr.Dataset:
 
 def beyond_model(evidence: Evidence) -> list[str]:
     """Reasons why runs in operation, and further ones, are beyond the model's limits."""
-    parts = [evidence.response.isel(speed=np.flatnonzero(evidence.operates)), *evidence.looks.values()]
+    further = (runs for look, runs in evidence.looks.items() if look != HALF_FRICTION)
+    parts = [evidence.response.isel(speed=np.flatnonzero(evidence.operates)), *further]
     runs = {
         name: np.concatenate([np.broadcast_to(part.get(name, np.nan), part.sizes["speed"]) for part in parts])
         for name in OF_LIMITS
