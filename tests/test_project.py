@@ -25,7 +25,7 @@ from r37core.base.io import FILE_ATTRIBUTES
 from r37core.product.extensions import FOLDERS
 
 LAYERS = ["base", "machine_code", "blade", "mesh", "fem", "rom", "contact", "stress", "time_integration", "results", "adaptive"]
-LAYERS += ["exchange", "config", "plans", "sweep", "figures", "explorer", *FOLDERS, "product", "console"]
+LAYERS += ["exchange", "config", "plans", "sweep", "surrogate", "figures", "explorer", *FOLDERS, "product", "console"]
 
 
 def test_the_lock_has_a_version_of_all_that_is_asked_for(root):

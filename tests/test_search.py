@@ -18,10 +18,11 @@ from r37core.search import steps
 from r37core.search.dataset import BLADES_HEADER, search_dataset, search_table, write_entries
 from r37core.search.designs import designs_of
 from r37core.search.figures import broken_key, draw_designs, draw_slices
-from r37core.search.problem import START, Constraint, SearchChoice, SearchVariable
-from r37core.search.proposal import first_designs
+from r37core.search.problem import START, Constraint, SearchChoice
 from r37core.search.quantity import DesignStructure, Quantity, contact_value, structure_value
 from r37core.search.steps import next_designs
+from r37core.surrogate.designs import SearchVariable
+from r37core.surrogate.proposal import first_designs
 
 BLADES = """
 Free:

@@ -24,6 +24,7 @@ use rule step as verdict with:
         **members,
         **more_motions,
         **run_up_dataset,
+        **offered("measured", sweep),
         campbell=rules.campbell_of_all.output[0],
         volumes=judged.volumes,
         looks=paths.filled({LOOKS: paths.run_keys(judged.looked)}),

@@ -1,11 +1,14 @@
 """Sections of all kinds of blades: a material, and regions of the stress."""
 
 from collections.abc import Iterable, Mapping
-from typing import Literal
+from typing import Annotated, Literal
+
+from pydantic import Field
 
 from r37core.base.declared import declared_keys
 from r37core.fem.material import Material
 from r37core.rom.region_choice import RegionChoice
+from r37core.stress.gauge import Gauge
 
 from .declaring import declared_by, si_form
 from .section import Section, refused
@@ -15,6 +18,15 @@ CONTACT_IN_WORDS = "Contact acts on mesh nodes (points, as published), or on pat
 
 Kinematics = Literal["linear", "rotating", "quadratic"]
 KINEMATICS_IN_WORDS = "Displacements: linear, as published; rotating, about the rotating equilibrium; or quadratic, large ones"
+
+
+Degrees = Annotated[float, Field(ge=0, lt=360)]
+"""An angle round the casing."""
+
+
+@declared_by(Gauge)
+class GaugeEntry(Section):
+    """A strain gauge on the blade's surface."""
 
 
 @declared_by(Material, optional=True)

@@ -16,7 +16,7 @@ from .sweep_plan import Sweep
 Targets = Callable[[Sweep], dict[str, Wildcards]]
 """Patterns of files -> the wildcards of each that a run asks for; none where its configuration does without."""
 
-Offer = Literal["motions", "run_ups", "verdict", "ranges", "members", "further_runs"]
+Offer = Literal["motions", "run_ups", "verdict", "ranges", "members", "further_runs", "measured"]
 """Name of a file that other rules take; see Extension.offers."""
 
 

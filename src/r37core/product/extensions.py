@@ -25,6 +25,7 @@ FOLDERS = (
     "requirements",
     "tolerances",
     "search",
+    "measured",
     "trials",
 )
 """Folders of the extensions, in the order of their sections in docs/configuration.md."""

@@ -15,6 +15,7 @@ from r37core.fem.assembly import mesh_volume
 from r37core.fem.material import Material
 from r37core.machine_code.kept import content_digest
 from r37core.mesh.mesh_files import read_vtu
+from r37core.results.agreement import disagreements
 from r37core.results.joining import Along, join
 from r37core.results.operating_range import OperatingRange
 from r37core.results.regions import read_judged
@@ -76,13 +77,14 @@ def judge(input: Any, output: Any, params: Any) -> None:
     """Judge each blade and scene. Outputs: verdict (csv), runs (nc): the further ones from rest.
 
     Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members,
-    motions and run_ups. Params: pairs, looked (those of them with looks), not_looked (why others have none), requirements,
-    operating, densities, clearance and thickness by scene, errors (of each pair), point_contact (blades whose contact acts on
-    points).
+    motions, run_ups and measured. Params: pairs, looked (those of them with looks), not_looked (why others have none),
+    requirements, operating, densities, clearance and thickness by scene, errors (of each pair), point_contact (blades whose
+    contact acts on points).
     """
     files = dict(input.items())
     shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)
     masses = {blade: density * _volume(file) for (blade, density), file in shapes}
+    measured = read_table(files.pop("measured")) if "measured" in files else None
     looked = zip(map(tuple, params.looked), as_list(files.pop("looks", [])), strict=True)
     looks = {pair: looks_in(read_dataset(file)) for pair, file in looked}
     numbers = {"clearance": params.clearance, "thickness": params.thickness, "mass": masses}
@@ -92,6 +94,10 @@ def judge(input: Any, output: Any, params: Any) -> None:
     doubts = {"looks": looks, "not_looked": params.not_looked, "point_contact": params.point_contact}
     errors = dict(zip(pairs, params.errors, strict=True))
     table = verdict_table(pairs, requirements, operating, datasets, numbers, errors=errors, **doubts)
+    if measured is not None:
+        doubted = disagreements(measured)
+        notes = [doubted.get(pair, "") for pair in zip(table["blade"], table["scene"], strict=True)]
+        table["note"] = ["; ".join(filter(None, both)) for both in zip(table["note"], notes, strict=True)]
     write_table(table, output.verdict, digits=6)
     runs = {pair: looks.get(pair, {}).get(REST, xr.Dataset()) for pair in pairs}
     join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", {}, nullcontext)

@@ -12,9 +12,9 @@ from r37core.config.document import Document
 from r37core.config.messages import did_you_mean, single_line
 from r37core.config.shape_keys import SHARES, ShapeKeys
 from r37core.rom.naming import mode_names
+from r37core.surrogate.gaussian_processes import SearchPackageMissing, library
 
 from .designs import SearchDesigns, choice_of, designs_of
-from .gaussian_processes import SearchPackageMissing, library
 from .quantity import FATIGUE_MEASURES, IN_OPERATION
 from .section import SECTION
 

@@ -16,20 +16,11 @@ from r37core.base.units import shown_unit
 from r37core.base.varied_number import VariedNumber, with_value
 from r37core.base.yaml_file import yaml_text
 from r37core.results.closing import counted
+from r37core.surrogate.designs import FEWEST_DONE, Design, SearchVariable, best_first, not_dominated, shares
+from r37core.surrogate.gaussian_processes import Fit, fit
 
-from .gaussian_processes import Fit, fit
 from .plan import BEST, DATASET
-from .problem import (
-    FEWEST_DONE,
-    START,
-    UNKNOWN,
-    Design,
-    SearchChoice,
-    SearchVariable,
-    best_first,
-    not_dominated,
-    shares,
-)
+from .problem import START, UNKNOWN, SearchChoice
 
 POINTS = 41
 """Number of points of a slice."""

@@ -18,8 +18,9 @@ from r37core.config.sections_entry import SectionsEntry
 from r37core.config.shape_keys import SECTION_KEYS, SHARES, ShapeKeys, neutral_value
 from r37core.contact.scene import Scene
 from r37core.plans.member_values import drawn, sobol_points
+from r37core.surrogate.designs import SearchVariable
 
-from .problem import Constraint, SearchChoice, SearchVariable
+from .problem import Constraint, SearchChoice
 from .section import SECTION, SearchSection
 
 FOLDER = SECTION.name

@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 
 from r37core.base.dataset_file import read_dataset
-from r37core.base.io import Named, function_named, read_json, write_json
+from r37core.base.io import Named, read_json, write_json
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import BLADE
 from r37core.blade.definition import shape_from_plain
 from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.changed_numbers import ImpossibleValueError
-from r37core.config.document import Document
 from r37core.config.settings import judged_region
 from r37core.fem.equilibrium import NoEquilibriumError
 from r37core.machine_code.kept import kept_file
@@ -37,24 +36,6 @@ from .problem import START
 from .quantity import DesignStructure, contact_value, static_stress, structure_value
 
 _STRUCTURE = ("geometry", CAMPBELL, "contact_model", "stress_operator")
-
-
-class Carried:
-    """Settings of a job, which reads them from its copy of config.yaml and the files that this names.
-
-    As a rule's parameter they re-run nothing: what they hold that counts stands next to them.
-    """
-
-    def __init__(self, settings: Settings):
-        self.settings = settings
-
-    def __reduce__(self) -> Any:
-        return _read, (self.settings.documents.config, self.settings.root)
-
-
-def _read(config: Document, root: Path) -> Carried:
-    # models of config.yaml are made of the sections of all extensions, of which this is one
-    return Carried(function_named("r37core.product.extensions.load_settings")(config, root))
 
 
 class Refused(ValueError):

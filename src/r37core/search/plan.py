@@ -9,6 +9,7 @@ from r37core.base.varied_number import BLADE, SCENE
 from r37core.config import Settings, operating_range, plain
 from r37core.config.settings import most_runs
 from r37core.plans import paths
+from r37core.plans.carried import Carried
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.extent import Pair
 from r37core.plans.sweep_plan import Sweep
@@ -16,7 +17,7 @@ from r37core.sweep.driver import one_by_one
 
 from .checks import search_can_be_run
 from .designs import FOLDER, choice_of, designs_of, is_asked
-from .evaluation import Carried, Evaluation
+from .evaluation import Evaluation
 from .problem import START
 from .section import SECTION
 

@@ -20,13 +20,14 @@ from r37core.blade.geometry_file import read_geometry
 from r37core.exchange.step_file import write_step
 from r37core.results.closing import counted
 from r37core.results.table_file import write_table
+from r37core.surrogate.designs import Design, best_first, not_dominated
+from r37core.surrogate.proposal import first_designs, propose
 from r37core.sweep.forks import forked_results
 
 from .dataset import BLADES_HEADER, SCENES_HEADER, search_dataset, search_table, write_entries
 from .designs import choice_of
 from .evaluation import Evaluation
-from .problem import QUASI_RANDOM, START, Design, SearchChoice, best_first, not_dominated
-from .proposal import first_designs, propose
+from .problem import QUASI_RANDOM, START, SearchChoice
 
 
 def search(input: Any, output: Any, params: Any) -> None:

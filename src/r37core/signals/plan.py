@@ -11,8 +11,8 @@ from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
+from r37core.stress.gauge import Gauge
 
-from .gauge import Gauge
 from .section import SECTION, SignalSection
 
 SIGNALS_OF_RUN = "<results>/{blade}/{scene}/signals.nc"

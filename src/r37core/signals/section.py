@@ -5,14 +5,11 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field
 
 from r37core.config import si_fields
-from r37core.config.declaring import declared_by
+from r37core.config.blade_sections import Degrees, GaugeEntry
 from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Rpm, Section, Unique, refused
 from r37core.config.speed_section import refuse_both_units, word_or_speeds
 
-from .gauge import Gauge
-
 SignalSpeeds: Any = word_or_speeds("interactions")
-Degrees = Annotated[float, Field(ge=0, lt=360)]
 
 
 def _each_probe_once(probes: list[float]) -> list[float]:
@@ -20,11 +17,6 @@ def _each_probe_once(probes: list[float]) -> list[float]:
         if probe in probes[:number]:
             raise refused((number,), f"a probe at {probe:g} degrees twice", "each angle once")
     return probes
-
-
-@declared_by(Gauge)
-class GaugeEntry(Section):
-    """A strain gauge on the blade's surface."""
 
 
 class SignalSection(Section):

@@ -12,10 +12,11 @@ from r37core.results.joining import join_runs
 from r37core.results.regions import read_judged
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
+from r37core.stress.gauge import Gauge
+from r37core.stress.gauges import gauge_rows
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .dataset import RUNS, signals_dataset
-from .gauges import Gauge, gauge_rows
 from .record import record_signals
 
 

@@ -15,8 +15,8 @@ from typing import Self
 import numpy as np
 import scipy
 
+from .designs import FEWEST_DONE, Design, SearchVariable, designs_at, shares
 from .gaussian_processes import Fit, fit, fit_chance
-from .problem import FEWEST_DONE, Design, SearchVariable, designs_at, shares
 
 NEAR = 0.01
 """Two designs differ by at least this share of the range of some variable, as long as there is room for it."""

@@ -1,0 +1,1 @@
+"""Measurements beside the simulation, and numbers that nobody knows fitted to them."""

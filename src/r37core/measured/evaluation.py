@@ -1,0 +1,93 @@
+"""Simulations of the designs of a calibration."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from math import inf
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from r37core.base.varied_number import VariedNumber
+from r37core.config import ConfigError, Settings, varied_settings
+from r37core.config.changed_numbers import ImpossibleValueError, changed_pair
+from r37core.fem.equilibrium import NoEquilibriumError
+from r37core.machine_code.kept import content_digest
+from r37core.mesh.mesh_files import read_vtu
+from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.rom.rotation import BucklingError
+from r37core.stress.gauges import gauge_rows
+from r37core.sweep.blade_sweep import blade_sweep
+from r37core.sweep.driver import RunAll
+from r37core.sweep.parts import Parts
+from r37core.sweep.recipe import STRUCTURES, code_of, structure_attributes
+from r37core.time_integration.clearance import NoRoomError
+from r37core.time_integration.integration_choice import IntegrationChoice
+
+from .observed import ObservedBlade
+from .plan import scene_values
+from .points import STRAIN, TIP_TIMING, Measurement
+
+Values = dict[str, list[float]]
+
+
+def observed_blade(
+    files: Any, measurements: Mapping[str, Measurement], choice: IntegrationChoice, tip_line: str, folder: Path
+) -> ObservedBlade:
+    """A blade in a scene to be observed. Files: model, and rom of tip timing, mesh and whole of strain; runs lie in `folder`.
+
+    Raises ValueError for a gauge that is not on the blade.
+    """
+    made_of = [content_digest(files.model), code_of("measured.steps.observe")]
+    blade = ObservedBlade(read_contact_model(files.model), choice, measurements, Parts(folder, made_of))
+    strains = [each.gauge for each in measurements.values() if each.quantity == STRAIN]
+    if strains:
+        whole = read_reduced_model(files.whole).whole_blade
+        assert whole is not None
+        rows, _ = gauge_rows(read_vtu(files.mesh), whole.basis, strains)  # type: ignore[arg-type]
+        blade = replace(blade, strains=rows)
+    if any(each.quantity == TIP_TIMING for each in measurements.values()):
+        blade = replace(blade, tip=read_reduced_model(files.rom).tip_lines[tip_line])
+    return blade
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Simulations of designs: `blades` of the configuration by blade and scene, with files in a `folder`."""
+
+    settings: Settings
+    blades: Mapping[tuple[str, str], ObservedBlade]
+    folder: Path
+    run_all: RunAll
+
+    def simulate(self, designs: Mapping[str, Mapping[VariedNumber, float]]) -> Sequence[Values | str]:
+        """Simulated values of each measurement, by name, of designs; or why one cannot be run."""
+        return list(self.run_all([partial(self._design, name, values) for name, values in designs.items()], "designs"))
+
+    def _design(self, name: str, values: Mapping[VariedNumber, float]) -> Values | str:
+        simulated: Values = {}
+        try:
+            for (blade, scene), observed in self.blades.items():
+                settings, numbers = self.settings, scene_values(self.settings, scene, values)
+                changed, other = changed_pair(settings.blades[blade], settings.scene_designs.entries[scene], numbers)
+                folder = self.folder / name / blade / scene
+                parts = replace(observed.parts, folder=folder)
+                if changed.elastic != settings.blades[blade].elastic:
+                    varied = varied_settings(settings, {blade: changed}, {})
+                    self.structures.mkdir(parents=True, exist_ok=True)
+                    attributes = structure_attributes(settings, blade)
+                    file = blade_sweep(varied, blade, scene, kept=False).file("contact_model", self.structures, attributes)
+                    observed = replace(observed, model=read_contact_model(file))
+                    parts = replace(parts, made_of=[content_digest(file), observed.parts.made_of])
+                for measured, numbers_at, _ in replace(observed, parts=parts).simulated(other):
+                    simulated[measured] = np.nan_to_num(numbers_at, nan=inf).tolist()
+        except (ConfigError, ImpossibleValueError, BucklingError, NoEquilibriumError, NoRoomError) as error:
+            return str(error)
+        return simulated
+
+    @property
+    def structures(self) -> Path:
+        """Folder of models of changed blades."""
+        return self.folder / STRUCTURES

@@ -1,0 +1,69 @@
+"""Figures of measurements beside the simulation, and of a calibration."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.figure import Figure
+
+from r37core.base.units import shown_unit
+from r37core.figures import style
+from r37core.results.agreement import groups, words
+
+_CURVES = {"displacement_normal, rms": "rms_normal", "displacement_tangential, rms": "rms_tangential"}
+"""Quantity that members under tolerances have, too, at the leading edge."""
+
+
+def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: xr.Dataset | None = None) -> Figure:
+    """Measured and simulated values of each measurement of a blade in a scene, with two standard deviations."""
+    own = [(key[2], rows) for key, rows in groups(table) if key[:2] == (blade, scene)]
+    figure, grid = plt.subplots(len(own), 1, figsize=(style.PAGE, 0.4 + 2.1 * len(own)), squeeze=False)
+    for axes, (quantity, rows) in zip(grid.flat, own, strict=True):
+        over_angle = rows["angle_deg"].notna().all()
+        places, label = (
+            (rows["angle_deg"], "casing angle (degrees)") if over_angle else (rows["speed_rad_s"], style.SPEED_LABEL)
+        )
+        unit, factor = shown_unit(rows["unit"].iloc[0])
+        if rows["engine_order"].nunique() > 1:
+            places, label = rows["engine_order"], "engine order"
+        curve = _CURVES.get(quantity)
+        if members is not None and curve and blade in members["blade"] and scene in members["scene"]:
+            part = members[f"{curve}_quantile"].sel(blade=blade, scene=scene).dropna("speed")
+            axes.fill_between(part["speed"], *(factor * part.isel(quantile=[0, -1]).T.values.T), alpha=0.2, label="tolerances")
+        simulated = factor * rows["simulated"].replace(np.inf, np.nan)
+        spread = 2.0 * factor * rows["simulated_uncertainty"]
+        ordered = np.argsort(places.to_numpy(), kind="stable")
+        axes.plot(places.iloc[ordered], simulated.iloc[ordered], "o-", markersize=3, label="simulated")
+        axes.fill_between(
+            places.iloc[ordered], (simulated - spread).iloc[ordered], (simulated + spread).iloc[ordered], alpha=0.2
+        )
+        bars = 2.0 * factor * rows["measured_uncertainty"]
+        axes.errorbar(places, factor * rows["measured"], bars, fmt="s", markersize=3, linewidth=0.8, label="measured")
+        axes.set(xlabel=label, ylabel=f"{quantity}\n({unit or '1'})", title=words(rows).split("; ")[0])
+    grid.flat[0].legend()
+    return figure
+
+
+def draw_calibration(calibration: xr.Dataset) -> Figure:
+    """Ranges of the numbers over their distributions before, and each measured point beside the simulated range."""
+    count = calibration.sizes["number"]
+    figure, (left, right) = plt.subplots(1, 2, figsize=(style.PAGE, 1.2 + 0.5 * max(count, 4)), width_ratios=[1, 1.4])
+    for place, name in enumerate(calibration["number"].values):
+        shares = calibration["share"].sel(number=name)
+        for (low, high), width in (((0.025, 0.975), 1.5), ((0.16, 0.84), 5.0)):
+            left.plot(shares.quantile([low, high]), [place, place], color=style.COLOURS[0], linewidth=width)
+        left.plot(shares.values[0], place, "o", color=style.COLOURS[1], markersize=5)
+    left.set(
+        yticks=range(count), yticklabels=calibration["number"].values, xlim=(0, 1), xlabel="share of the distribution before"
+    )
+    # of each measurement in units of its largest value
+    largest = calibration["measured"].groupby("measurement").max()
+    scale = largest.sel(measurement=calibration["measurement"]).values
+    places = np.arange(calibration.sizes["point"])
+    low, middle, high = calibration["simulated"].values / scale
+    right.errorbar(places, middle, [middle - low, high - middle], fmt="o", markersize=3, label="simulated, 95%")
+    right.errorbar(places + 0.2, calibration["measured"] / scale, 2.0 * calibration["deviation"] / scale, fmt="s", markersize=3,
+                   label="measured, 2 sigma")  # fmt: skip
+    right.set(xlabel="measured point", ylabel="over the largest measured", ylim=(0, None))
+    right.legend()
+    return figure

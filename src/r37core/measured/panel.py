@@ -1,0 +1,49 @@
+"""Panel of the explorer and closing lines of measurements and of a calibration."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from r37core.base.dataset_file import read_dataset
+from r37core.explorer.contents import packed
+from r37core.results.agreement import disagrees, groups, words
+from r37core.results.closing import counted
+from r37core.results.table_file import read_table
+
+from .posterior import number_table
+
+
+def contents(table: pd.DataFrame) -> list[dict[str, object]]:
+    """Each measurement: blade, scene, title and unit, its axis, measured and simulated values, their deviations, and words."""
+    panels: list[dict[str, object]] = []
+    for (blade, scene, quantity, file), rows in groups(table):
+        over_angle = rows["angle_deg"].notna().all()
+        numbers = {name: packed(rows[name].to_numpy(float)) for name in rows if rows[name].dtype.kind in "fi"}
+        axis = "angle_deg" if over_angle else "speed_rad_s"
+        about = {"blade": blade, "scene": scene, "title": f"{quantity} ({file})", "unit": rows["unit"].iloc[0]}
+        panels.append(about | {"axis": axis, "words": words(rows)} | numbers)
+    return panels
+
+
+def closing(results: Path) -> str:
+    """Closing line: how many points of each measurement agree, and where others lie."""
+    table = read_table(results / "measured.csv")
+    lines = [f"{blade} in {scene}, {quantity}: {words(rows)}" for (blade, scene, quantity, _), rows in groups(table)]
+    far = [lines[place] for place, (_, rows) in enumerate(groups(table)) if disagrees(rows)]
+    # of many measurements those that disagree
+    return " | ".join(lines if len(lines) < 5 else [f"{counted(len(lines), 'measurement')}, {len(far)} disagree", *far[:4]])
+
+
+def closing_of_calibration(results: Path) -> str:
+    """Closing line: best value and 95% range of each number, and whether simulation and measurements then agree."""
+    dataset = read_dataset(results / "calibration.nc")
+    lines = [
+        f"{row.number} {row.best:.3g} ({row.low_95:.3g} to {row.high_95:.3g}{'; ' + row.note if row.note else ''})"
+        for row in number_table(dataset).itertuples()
+    ]
+    elsewhere = dataset["speed"].values[dataset["elsewhere"].values > 0.5]
+    if len(elsewhere):
+        lines.append(f"on another branch or wrong: {', '.join(f'{speed:.5g}' for speed in elsewhere[:4])} rad/s")
+    if dataset.attrs["disagrees"]:
+        lines.append("no values in these ranges agree with the measurements: the model lacks something, and ranges mean little")
+    return ", ".join(lines)

@@ -1,0 +1,287 @@
+"""The plan of measurements and of a calibration: what is compared, what is run for it, and where it lies."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from r37core.base.io import Named
+from r37core.base.plain import to_plain
+from r37core.base.varied_number import BLADE, VariedNumber
+from r37core.config import ConfigError, Settings
+from r37core.config.changed_numbers import ImpossibleValueError, changed_pair, check_known, nominal_value, scene_numbers
+from r37core.config.declaring import si_fields, si_form
+from r37core.config.messages import single_line
+from r37core.config.section import ExtensionSection
+from r37core.config.settings import FARTHEST
+from r37core.plans import paths
+from r37core.plans.carried import Carried
+from r37core.plans.extension import Extension, Figure, Panel
+from r37core.plans.extent import Pair
+from r37core.plans.structure_plan import Structure
+from r37core.plans.sweep_plan import Sweep
+from r37core.stress.gauge import Gauge
+from r37core.surrogate.gaussian_processes import SearchPackageMissing, library
+
+from .points import RMS, STRAIN, TIP_TIMING, WORN_DEPTH, Measurement
+from .section import ASKED, CALIBRATE, MEASURED, CalibrateSection, MeasurementSection
+
+OBSERVED = "<results>/{blade}/{scene}/observed.json"
+TABLE = "<results>/measured.csv"
+DATASET, NUMBERS = "<results>/calibration.nc", "<results>/calibration.csv"
+FOLDER = "<results>/calibration"
+"""Folder of the draws, of scenes with the best values, and of the designs' files."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Measurements that `settings` ask for. Methods with `wildcards` are inputs and parameters of rules."""
+
+    settings: Settings
+
+    @cached_property
+    def all(self) -> dict[str, Measurement]:
+        """Measurements by their names. Raises ConfigError for a file that cannot be used."""
+        return {f"m{number}": self._read(number, each) for number, each in enumerate(self.settings.section(MEASURED))}
+
+    @cached_property
+    def pairs(self) -> list[Pair]:
+        """Blades and scenes that have measurements, in the order of the run."""
+        measured = {(each.blade, each.scene) for each in self.settings.section(MEASURED)}
+        return [pair for pair in self.settings.speed_plans if pair in measured]
+
+    def of(self, wildcards: Any) -> dict[str, Any]:
+        """Measurements of a blade in a scene, as plain values."""
+        return to_plain(self.of_pair((wildcards.blade, wildcards.scene)))
+
+    def of_pair(self, pair: Pair) -> dict[str, Measurement]:
+        """Measurements of a blade in a scene, by their names."""
+        return {name: each for name, each in self.all.items() if (each.blade, each.scene) == pair}
+
+    def inputs(self, wildcards: Any) -> dict[str, str]:
+        """Files that the runs of a blade and scene start from."""
+        sweep, pair = Sweep(self.settings), (wildcards.blade, wildcards.scene)
+        quantities = [each.quantity for each in self.of_pair(pair).values()]
+        where = {"blade": wildcards.blade, "scene": wildcards.scene}
+        files = {"prepared": paths.fill(paths.INTEGRATION_STAMP, **where), "model": sweep.contact_model(wildcards)}
+        if TIP_TIMING in quantities:
+            files["rom"] = sweep.reduced_model(wildcards)
+        if STRAIN in quantities:
+            files |= {"mesh": paths.fill(paths.MESH, **where), "whole": Structure(self.settings).whole_blade_model(wildcards)}
+        return files
+
+    def choice(self, wildcards: Any) -> dict[str, Any]:
+        """Time integration of a run: that of the sweep."""
+        return to_plain(self.settings.integration_choice(wildcards.blade, wildcards.scene, 0.0))
+
+    def _read(self, number: int, entry: MeasurementSection) -> Measurement:
+        # reading tables takes pandas, which a run without measurements does not load
+        from .file import MeasurementError, Reading, read_points
+
+        settings, document, path = self.settings, self.settings.documents.config, ("measured", number)
+        names = {"blade": settings.blade_names, "scene": settings.scene_names}
+        for key, known in names.items():
+            if (name := getattr(entry, key)) not in known:
+                raise document.refusal((*path, key), f"'{name}'", f"one that is run ({', '.join(known)})")
+        scene = settings.scenes[entry.scene].scene
+        if scene.rotor or settings.structure.coriolis:
+            raise document.refusal(
+                (*path, "scene"), f"'{entry.scene}', a rotor or with Coriolis forces", "a scene of one blade"
+            )
+        if entry.quantity == WORN_DEPTH and scene.lining is None:
+            raise document.refusal((*path, "quantity"), f"{WORN_DEPTH} in '{entry.scene}', without lining", "a scene with one")
+        gauge = self._gauge(entry, path)
+        percent = None if entry.uncertainty_percent is None else 0.01 * entry.uncertainty_percent
+        asked = entry.value == ASKED
+        columns = "" if asked else entry.value or "", entry.uncertainty or ""
+        order, speed = entry.engine_order or 0, si_fields(entry).get("speed", np.nan)
+        reading = Reading(entry.quantity, entry.statistic, order, *columns, percent, speed, entry.rows, entry.first_above)
+        file = Path(entry.file) if Path(entry.file).is_absolute() else settings.root / entry.file
+        try:
+            points, speeds = read_points(file, reading, asked=asked)
+        except MeasurementError as error:
+            raise document.error((*path, error.key), f"{entry.file}: {error}") from None
+        fastest, highest = max((*points.speeds, *speeds)), FARTHEST * settings.structure.maximum_speed_rad_s
+        if fastest > highest:
+            allowed = f"up to {highest:g}, {FARTHEST:g} times structure.maximum_speed_rad_s; rpm in a column ..._rpm"
+            raise document.refusal((*path, "file"), f"{fastest:g} rad/s in {entry.file}", allowed)
+        return Measurement(
+            file=entry.file, blade=entry.blade, scene=entry.scene, quantity=entry.quantity, points=points,
+            statistic=RMS if entry.quantity == WORN_DEPTH else entry.statistic, tip_point=entry.tip_point,
+            probe=np.radians(entry.probe_deg or 0.0), gauge=gauge, first_above=entry.first_above, curve_speeds=speeds,
+        )  # fmt: skip
+
+    def _gauge(self, entry: MeasurementSection, path: tuple[str | int, ...]) -> Gauge | None:
+        section = entry.gauge
+        if isinstance(section, str):
+            known = self.settings.config.signals.gauges  # type: ignore[attr-defined]
+            if section not in known:
+                allowed = f"one of signals.gauges ({', '.join(known) or 'none'}), or a place: chord, span, side, angle_deg"
+                raise self.settings.documents.config.refusal((*path, "gauge"), f"'{single_line(section)}'", allowed)
+            section = known[section]
+        if section is not None and entry.blade not in Structure(self.settings).meshed_blades:
+            refusal = f"a gauge on '{entry.blade}', which has no mesh"
+            raise self.settings.documents.config.refusal((*path, "gauge"), refusal, "a blade with one")
+        return None if section is None else si_form(Gauge, section)
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """Plan of the calibration that `settings` ask for."""
+
+    settings: Settings
+
+    @property
+    def section(self) -> CalibrateSection:
+        """Section of config.yaml."""
+        section = self.settings.section(CALIBRATE)
+        assert section is not None
+        return section
+
+    @cached_property
+    def nominal(self) -> list[float]:
+        """Value in the configuration of each number, which all measured blades and scenes that have it share."""
+        numbers, settings, document = self.section.spreads, self.settings, self.settings.documents.config
+        pairs, values = settings.made(Measured).pairs, []
+        scenes = {scene: scene_numbers(settings.scene_designs.entries[scene]) for _, scene in pairs}
+        check_known(numbers, (key for known in scenes.values() for key in known), document, (CALIBRATE.name,))
+        for number in numbers:
+            path = (CALIBRATE.name, number.section, number.key)
+            try:
+                known = {nominal_value(number, settings.blades[blade], scenes[scene]) for blade, scene in pairs} - {None}
+            except ValueError as error:
+                raise document.refusal(path, str(error), "other numbers") from None
+            if len(known) != 1:
+                which = (
+                    f"{number.key} that no measured blade or scene has" if not known else f"{number.key} with several values"
+                )
+                raise document.refusal(path, which, "a number with one value in what was measured")
+            values.append(float(next(iter(known))))  # type: ignore[arg-type]
+        return values
+
+    def budget(self) -> list[int]:
+        """Number of designs of each round."""
+        entry = self.section
+        more = range(entry.first, entry.runs, entry.batch)
+        return [entry.first, *(min(entry.batch, entry.runs - done) for done in more)]
+
+    def inputs(self) -> dict[str, list[str]]:
+        """Files that the designs start from: lists, of each blade and scene."""
+        measured = self.settings.made(Measured)
+        files = [measured.inputs(Named(blade=pair[0], scene=pair[1])) for pair in measured.pairs]
+        return {name: [each.get(name, each["model"]) for each in files] for name in sorted(set().union(*files))}
+
+    def made_of(self, wildcards: Any) -> Any:
+        """All that the designs follow from beside the files, as plain values."""
+        measured, settings = self.settings.made(Measured), self.settings
+        scenes = [settings.scene_designs.entries[scene].model_dump() for _, scene in measured.pairs]
+        choices = [measured.choice(Named(blade=blade, scene=scene)) for blade, scene in measured.pairs]
+        return [scenes, choices, to_plain(measured.all), self.section.model_dump(), self.nominal]
+
+    def carried(self, wildcards: Any) -> Carried:
+        """The settings, of which designs are made."""
+        return Carried(self.settings)
+
+    def ends(self) -> Iterator[tuple[VariedNumber, dict[VariedNumber, float]]]:
+        """Each end of each number's range."""
+        for (number, spread), value in zip(self.section.spreads.items(), self.nominal, strict=True):
+            for end in spread.ends(value):
+                yield number, {number: end}
+
+
+def can_be_compared(settings: Settings) -> None:
+    """Files of measurements can be read, and are of blades and scenes that are run."""
+    _ = settings.made(Measured).all
+
+
+def can_be_calibrated(settings: Settings) -> None:
+    """There are measurements, the numbers are there and possible over their ranges, and the library is installed."""
+    if settings.section(CALIBRATE) is None:
+        return
+    document, calibrated = settings.documents.config, settings.made(Calibrated)
+    if not settings.section(MEASURED):
+        raise document.refusal((CALIBRATE.name,), "no measurement", "measured: with a file beside it")
+    measured = settings.made(Measured)
+    strained = [each for each in measured.all.values() if each.quantity == STRAIN]
+    if strained and any(number.kind == BLADE for number in calibrated.section.spreads):
+        raise document.refusal((CALIBRATE.name, "of_blades"), "numbers of blades with a gauge", "of_scenes, or no gauge")
+    for blade, scene in measured.pairs:
+        for number, values in calibrated.ends():
+            try:
+                numbers = scene_values(settings, scene, values)
+                changed_pair(settings.blades[blade], settings.scene_designs.entries[scene], numbers)
+            except (ConfigError, ImpossibleValueError) as error:
+                path = (CALIBRATE.name, number.section, number.key)
+                raise document.error(path, f"at the end of its range: {error}; or a narrower range") from None
+    try:
+        library()
+    except SearchPackageMissing as error:
+        raise document.error((CALIBRATE.name,), str(error)) from None
+
+
+def scene_values(settings: Settings, scene: str, values: Mapping[VariedNumber, float]) -> dict[VariedNumber, float]:
+    """The values of those numbers that a scene has, and of blades."""
+    known = scene_numbers(settings.scene_designs.entries[scene])
+    return {number: value for number, value in values.items() if number.kind == BLADE or number.key in known}
+
+
+def _once(sweep: Sweep, section: ExtensionSection[Any] = MEASURED) -> paths.Wildcards:
+    return [{}] if sweep.settings.section(section) else []
+
+
+def simulations(settings: Settings) -> dict[Pair, int]:
+    """Largest number of simulations of designs, by blade and scene."""
+    if settings.section(CALIBRATE) is None:
+        return {}
+    measured, runs = settings.made(Measured), settings.made(Calibrated).section.runs
+    speeds = {pair: {each for one in measured.of_pair(pair).values() for each in one.run_speeds} for pair in measured.pairs}
+    return {pair: runs * len(each) for pair, each in speeds.items()}
+
+
+MEASUREMENTS = Extension(
+    name="measured",
+    section=MEASURED,
+    checks=(can_be_compared,),
+    targets=lambda sweep: {OBSERVED: paths.run_keys(sweep.settings.made(Measured).pairs), TABLE: _once(sweep)},
+    offers={"measured": TABLE},
+    figures=(
+        Figure(
+            rule="measured_figure",
+            name="measured_{blade}__{scene}",
+            runs=lambda sweep: paths.run_keys(sweep.settings.made(Measured).pairs),
+            draw="measured.figures.draw_measured",
+            files={"table": TABLE},
+            offered=("members",),
+            label="measurement",
+            caption="Blade {blade} in scene {scene}: measured values with two standard deviations, and what simulations of "
+            "the same speeds give, with theirs by mesh, step and 0.1% of friction.",
+        ),
+    ),
+    panel=Panel(TABLE, "measured.panel.contents", "measured/panel.js"),
+    closing="measured.panel.closing",
+)
+CALIBRATION = Extension(
+    name="calibrate",
+    section=CALIBRATE,
+    checks=(can_be_calibrated,),
+    members=simulations,
+    targets=lambda sweep: dict.fromkeys((DATASET, NUMBERS, FOLDER), _once(sweep, CALIBRATE)),
+    figures=(
+        Figure(
+            rule="calibration_figure",
+            name="calibration",
+            runs=lambda sweep: _once(sweep, CALIBRATE),
+            draw="measured.figures.draw_calibration",
+            files={"calibration": DATASET},
+            label="calibration",
+            caption="Left: each number over its distribution before, 0 to 1; thick line and thin line: 68 and 95% of what the "
+            "measurements leave possible, point: best. Right: each measured point and the simulated range.",
+            category="Calibration",
+        ),
+    ),
+    closing="measured.panel.closing_of_calibration",
+)
+EXTENSIONS = (MEASUREMENTS, CALIBRATION)

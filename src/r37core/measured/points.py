@@ -1,0 +1,148 @@
+"""Points of a measurement, and what of a run they are compared with. Light: plain data that a rule's parameter holds."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from r37core.stress.gauge import Gauge
+
+RMS, HALF_PEAK_TO_PEAK, ORDER = "rms", "half_peak_to_peak", "order"
+WORN_DEPTH, STRAIN, TIP_TIMING = "worn_depth", "strain", "tip_timing"
+NORMAL, TANGENTIAL, RADIAL = (f"displacement_{direction}" for direction in ("normal", "tangential", "radial"))
+
+
+@dataclass(frozen=True)
+class Points:
+    """Measured values in SI units with their standard deviations, at speeds (rad/s).
+
+    `angles` (rad) of a profile round the casing, else none; `orders`: engine order of each amplitude, 0 where the value is
+    the measurement's statistic. `dropped`: rows of the file that are no points.
+    """
+
+    speeds: tuple[float, ...]
+    values: tuple[float, ...]
+    deviations: tuple[float, ...]
+    orders: tuple[int, ...]
+    angles: tuple[float, ...] = ()
+    dropped: int = 0
+
+    @classmethod
+    def of(
+        cls,
+        speeds: np.ndarray,
+        values: np.ndarray,
+        deviations: np.ndarray,
+        orders: np.ndarray | int = 0,
+        *,
+        angles: np.ndarray | None = None,
+        dropped: int = 0,
+    ) -> Self:
+        """Points of arrays of shape (points,), or of one speed or order that all have."""
+        columns = [np.broadcast_to(part, values.shape).tolist() for part in (speeds, values, deviations, orders)]
+        at, measured, sure, of = map(tuple, columns)
+        return cls(at, measured, sure, of, () if angles is None else tuple(angles.tolist()), dropped)
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """A `quantity` of a blade in a scene and its `points`; `file` as it is named.
+
+    `statistic`: RMS, HALF_PEAK_TO_PEAK or ORDER; `first_above`: a limit in SI units, where the one point is the first speed
+    above it. `probe` (rad), `gauge`: of tip timing and strain.
+    """
+
+    file: str
+    blade: str
+    scene: str
+    quantity: str
+    points: Points
+    statistic: str = RMS
+    tip_point: str = "leading_edge"
+    probe: float = 0.0
+    gauge: Gauge | None = None
+    first_above: float | None = None
+    curve_speeds: tuple[float, ...] = ()
+
+    @property
+    def unit(self) -> str:
+        """Unit of the values."""
+        return "rad s-1" if self.first_above is not None else "1" if self.quantity == STRAIN else "m"
+
+    @property
+    def title(self) -> str:
+        """Quantity and statistic, for tables, figures and messages."""
+        if self.first_above is not None:
+            return f"first speed with {self.quantity} above {self.first_above:g}"
+        return self.quantity if self.quantity == WORN_DEPTH else f"{self.quantity}, {self.statistic}"
+
+    @property
+    def run_speeds(self) -> tuple[float, ...]:
+        """Speeds (rad/s) of the runs that it is compared with, ascending."""
+        return tuple(sorted({*(self.curve_speeds or self.points.speeds)}))
+
+    @property
+    def observes(self) -> tuple[object, ...]:
+        """All that decides what is kept of a run for it."""
+        wanted = self.wanted_orders, bool(self.points.angles)
+        return (self.quantity, self.statistic, self.tip_point, self.probe, self.gauge, *wanted)
+
+    def simulated(self, runs: Mapping[float, Mapping[str, np.ndarray]], name: str) -> tuple[np.ndarray, str]:
+        """Values of runs, by speed (rad/s), at the points, and a remark; `name`: of this measurement's numbers in a run.
+
+        Infinite where a run diverged. A profile is turned to where it fits best, which the remark says.
+        """
+        if self.first_above is not None:
+            curve = np.array([runs[speed][name][0] for speed in self.run_speeds])
+            return np.array([first_speed_above(np.array(self.run_speeds), curve, self.first_above)]), ""
+        if self.points.angles:
+            return turned_profile(runs[self.points.speeds[0]][name], self.points)
+        return np.array([runs[speed][name][order] for speed, order in zip(self.points.speeds, self.places, strict=True)]), ""
+
+    @property
+    def wanted_orders(self) -> tuple[int, ...]:
+        """Engine orders that a run keeps; 0 stands for the statistic."""
+        return tuple(sorted({*self.points.orders}))
+
+    @property
+    def places(self) -> list[int]:
+        """Place of each point's order among those that a run keeps."""
+        return [self.wanted_orders.index(order) for order in self.points.orders]
+
+
+def first_speed_above(speeds: np.ndarray, values: np.ndarray, limit: float) -> float:
+    """First speed (rad/s) at which a curve passes a limit, between speeds by a straight line; infinite where none does."""
+    above = np.flatnonzero(values > limit)
+    if not above.size:
+        return np.inf
+    place = int(above[0])
+    if place == 0 or not np.isfinite(values[place]):
+        return float(speeds[place])
+    return float(np.interp(limit, values[place - 1 : place + 1], speeds[place - 1 : place + 1]))
+
+
+def turned_profile(wear: np.ndarray, points: Points) -> tuple[np.ndarray, str]:
+    """A simulated wear profile (m), shape (sectors,), at the points of a measured one, turned to where it fits best.
+
+    The remark says by how much, and whether the measured profile fits clearly better when it is read backwards.
+    """
+    measured, deviations, angles = (np.array(part) for part in (points.values, points.deviations, points.angles))
+    if not np.isfinite(wear).all():
+        return np.full(len(measured), np.inf), "the run diverged"
+    turns = 2.0 * np.pi * np.arange(len(wear)) / len(wear)
+
+    def best(sense: float) -> tuple[float, float, np.ndarray]:
+        # linear interpolation on the circle, in all turns at once
+        at = ((sense * angles + turns[:, None]) % (2.0 * np.pi)) * len(wear) / (2.0 * np.pi) - 0.5
+        low = np.floor(at).astype(int)
+        profiles = (1.0 + low - at) * wear[low % len(wear)] + (at - low) * wear[(low + 1) % len(wear)]
+        misfit = (((profiles - measured) / deviations) ** 2).sum(axis=1)
+        turn = int(misfit.argmin())
+        return float(misfit[turn]), float(turns[turn]), profiles[turn]
+
+    (misfit, turn, profile), (backwards, _, _) = best(1.0), best(-1.0)
+    remark = f"turned by {np.degrees(turn):.3g} degrees"
+    if backwards < 0.5 * misfit and misfit - backwards > 9.0:
+        remark += "; fits better when its angles are read backwards"
+    return profile, remark

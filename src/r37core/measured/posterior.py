@@ -1,0 +1,133 @@
+"""calibration.nc, calibration.csv and the files to go on with: what the measurements leave possible."""
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+import pandas as pd
+import scipy
+import xarray as xr
+
+from r37core.base.dataset_file import about
+from r37core.base.varied_number import SCENE, VariedNumber, with_value
+from r37core.base.yaml_file import yaml_text
+from r37core.config import Settings
+from r37core.config.changed_numbers import scene_numbers
+
+from .calibration import Calibration
+
+ENDS = {"low_95": 0.025, "low_68": 0.16, "median": 0.5, "high_68": 0.84, "high_95": 0.975}
+
+UNTOLD = 0.8
+"""Share of its width before that a number's range keeps where the measurements tell nothing of it."""
+
+TOGETHER = 0.7
+"""Correlation from which on measurements tell two numbers together and not each."""
+
+_AT_END = 0.02
+_SURE = 0.99
+
+
+def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
+    """Dataset of a calibration over (number, draw), (point) and (design): the first of the draws is the most likely."""
+    likelihood, cube, logs = calibration.posterior()
+    # the best first, and others evenly over the draws, which are sorted by their likelihood
+    kept = np.unique(np.linspace(0, len(cube) - 1, min(count, len(cube))).astype(int))
+    numbers, best = calibration.numbers, cube[:1]
+    values = np.array([list(numbers.at(share).values()) for share in cube])
+    residuals, deviations = likelihood.residuals(best)
+    elsewhere = likelihood.elsewhere(cube)
+    points = [(each, place) for each in calibration.measurements.values() for place in range(len(each.points.values))]
+    means = np.array([fit.at(cube)[0] for fit in likelihood.fits])
+    # the simulated value is the exponential of what the surrogates have
+    ranges = np.exp(np.quantile(means, (0.025, 0.5, 0.975), axis=1)) - calibration.floors
+    normalised = np.where(elsewhere > 0.5, 0.0, residuals[:, 0] / deviations[:, 0])
+    degrees = max(int((elsewhere <= 0.5).sum()) - values.shape[1], 1)
+    chance = float(scipy.stats.chi2.cdf((normalised**2).sum(), degrees))
+    names = [number.name for number in numbers.spreads]
+    return xr.Dataset(
+        {
+            "value": (("draw", "number"), values[kept], about("", "drawn values, in the units of the keys")),
+            "share": (("draw", "number"), cube[kept], about("1", "share of the number's distribution below a draw")),
+            "best": ("number", values[0], about("", "most likely values")),
+            "quantile": (("end", "number"), np.quantile(values, list(ENDS.values()), axis=0), about("", "ends of ranges")),
+            "width_share": ("number", _width(cube), about("1", "width of the 68% range over that before")),
+            "at_end": ("number", _at_end(cube), about("1", "1 where the 95% range reaches an end of the number's range")),
+            "correlation": (("number", "number_2"), np.atleast_2d(np.corrcoef(cube.T)), about("1", "correlation of the draws")),
+            "measured": ("point", [each.points.values[place] for each, place in points], about("", "measured value")),
+            "deviation": ("point", [each.points.deviations[place] for each, place in points], about("", "its deviation")),
+            "simulated": (("range", "point"), ranges, about("", "simulated: 2.5, 50 and 97.5% of the draws")),
+            "misfit": ("point", residuals[:, 0] / deviations[:, 0], about("1", "difference over uncertainty at the best")),
+            "elsewhere": ("point", elsewhere, about("1", "probability that the point lies on another branch or is wrong")),
+            "design_value": (
+                ("design", "number"), [list(numbers.at(each).values()) for each in calibration.cube], about("", "values")
+            ),
+            "design_misfit": ("design", calibration.misfits, about("1", "misfit, NaN where a run diverged")),
+        },
+        coords={
+            "number": names, "number_2": names, "end": list(ENDS), "range": ["low", "median", "high"],
+            "measurement": ("point", [f"{each.blade} {each.scene}: {each.title}" for each, _ in points]),
+            "speed": ("point", [each.points.speeds[place] for each, place in points], about("rad s-1", "speed")),
+        },
+        attrs={
+            "disagrees": int(chance > _SURE or (elsewhere > 0.5).mean() > 0.25),
+            "probability_of_misfit": chance,
+            "log_likelihood_of_best": float(logs[0]),
+        },
+    )  # fmt: skip
+
+
+def _width(cube: np.ndarray) -> np.ndarray:
+    low, high = np.quantile(cube, (0.16, 0.84), axis=0)
+    return (high - low) / 0.68
+
+
+def _at_end(cube: np.ndarray) -> np.ndarray:
+    low, high = np.quantile(cube, (0.025, 0.975), axis=0)
+    return ((low < _AT_END) | (high > 1.0 - _AT_END)).astype(int)
+
+
+def number_table(dataset: xr.Dataset) -> pd.DataFrame:
+    """A row for each number: best value, ranges, and what the measurements do not tell."""
+    rows = []
+    for name in dataset["number"].values:
+        number = dataset.sel(number=name)
+        ends = {str(end): float(number["quantile"].sel(end=end)) for end in dataset["end"].values}
+        row = {"number": name, "best": float(number["best"]), **ends, "width_share": float(number["width_share"])}
+        rows.append(row | {"note": "; ".join(notes(dataset, str(name)))})
+    return pd.DataFrame(rows)
+
+
+def notes(dataset: xr.Dataset, name: str) -> list[str]:
+    """What the measurements do not tell of a number."""
+    number, lines = dataset.sel(number=name), []
+    if number["width_share"] > UNTOLD:
+        lines.append("not told by these measurements")
+    elif number["at_end"]:
+        lines.append("reaches an end of its range")
+    for one, other in combinations(dataset["number"].values, 2):
+        share = float(dataset["correlation"].sel(number=one, number_2=other))
+        if name in (one, other) and abs(share) > TOGETHER:
+            lines.append(f"told together with {other if name == one else one} alone (correlation {share:.2f})")
+    return lines
+
+
+def drawn_table(dataset: xr.Dataset) -> pd.DataFrame:
+    """Draws, a row each, by the names of the numbers: for tolerances.drawn_file."""
+    return pd.DataFrame(dataset["value"].values, columns=dataset["number"].values)
+
+
+def calibrated_scenes(settings: Settings, dataset: xr.Dataset, scenes: Sequence[str]) -> str:
+    """Text of a file of scenes with the best values."""
+    entries = {}
+    best = {VariedNumber.named(str(name)): float(dataset["best"].sel(number=name)) for name in dataset["number"].values}
+    for scene in dict.fromkeys(scenes):
+        entry = settings.scene_designs.entries[scene]
+        content, known = entry.model_dump(exclude_none=True, exclude_unset=True), scene_numbers(entry)
+        for number, value in best.items():
+            if number.kind == SCENE and number.key in known:
+                content = with_value(content, number.key, float(f"{value:.6g}"))
+        entries[f"{scene}-calibrated"] = content
+    others = [f"{number.key} {value:.6g}" for number, value in best.items() if number.kind != SCENE]
+    of_blades = f"# Numbers of the blade: {', '.join(others)}.\n" if others else ""
+    return f"# Most likely values of a calibration; calibration.csv has their ranges.\n{of_blades}{yaml_text(entries)}"

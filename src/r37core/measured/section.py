@@ -1,0 +1,84 @@
+"""measured and calibrate of config.yaml."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from r37core.config.blade_sections import Degrees, GaugeEntry
+from r37core.config.section import ExtensionSection, FileName, LeftOut, Name, Rpm, Section, Speed, left_out, or_section, refused
+from r37core.config.spread import Spreads, Width
+
+from .points import HALF_PEAK_TO_PEAK, NORMAL, ORDER, RADIAL, RMS, STRAIN, TANGENTIAL, TIP_TIMING, WORN_DEPTH
+
+ASKED = "?"
+"""Column that is answered with what the header has."""
+
+
+class MeasurementSection(Section):
+    """A quantity of a blade in a scene as it was measured, one column of a file."""
+
+    file: FileName = Field(description="CSV with a header that has units: `speed_rpm`, `amplitude (um)`")
+    blade: Name = Field(description="Blade that is run")
+    scene: Name = Field(description="Scene that is run")
+    quantity: Literal[(NORMAL, TANGENTIAL, RADIAL, STRAIN, TIP_TIMING, WORN_DEPTH)] = Field(  # type: ignore[valid-type]
+        description="What was measured: a displacement of the tip, strain of a gauge, displacement by tip timing, or worn depth"
+    )
+    statistic: Literal[(RMS, HALF_PEAK_TO_PEAK, ORDER)] = Field(  # type: ignore[valid-type]
+        default=RMS, description="Statistic of the values; of a time signal amplitudes of its engine orders"
+    )
+    engine_order: Annotated[int, Field(ge=1, le=1000)] | LeftOut = left_out("Engine order, with statistic: order")
+    tip_point: Literal["leading_edge", "trailing_edge"] = Field(default="leading_edge", description="End of the tip")
+    gauge: or_section(Name, GaugeEntry) | LeftOut = left_out(  # type: ignore[valid-type]
+        "Gauge of a strain: its place, or its name under signals.gauges"
+    )
+    probe_deg: Degrees | LeftOut = left_out("Casing angle of the tip-timing probe, towards growing theta")
+    value: str | LeftOut = left_out("Column with the values, where several may be; ? lists the columns")
+    uncertainty: str | LeftOut = left_out("Column with standard deviations, where several may be")
+    uncertainty_percent: Annotated[float, Field(gt=0, le=1000)] | LeftOut = left_out("Standard deviation of each value")
+    speed_rad_s: Speed | LeftOut = left_out("Speed, where the file has none")
+    speed_rpm: Rpm | LeftOut = left_out("The same speed in revolutions per minute")
+    rows: dict[str, str] = Field(default={}, description="Rows of a long file that count: text by column")
+    first_above: Width | LeftOut = left_out("Limit in SI units: of the curve the first speed above it counts alone")
+
+    def _check(self) -> None:
+        needs = {"gauge": self.quantity == STRAIN, "probe_deg": self.quantity == TIP_TIMING}
+        needs["engine_order"] = self.statistic == ORDER
+        for key, needed in needs.items():
+            if (getattr(self, key) is not None) != needed:
+                owner = f"statistic {self.statistic}" if key == "engine_order" else self.quantity
+                joint, allowed = ("without", "beside it") if needed else ("with", "left out")
+                raise refused((key,), f"{owner} {joint} {key}", f"{key} {allowed}")
+        if self.quantity in (TIP_TIMING, WORN_DEPTH) and self.statistic == ORDER:
+            raise refused(("statistic",), f"{ORDER} of {self.quantity}", "another statistic")
+        if self.first_above is not None and self.quantity == WORN_DEPTH:
+            raise refused(("first_above",), f"a limit of {WORN_DEPTH}", "a displacement or strain")
+        if self.speed_rad_s is not None and self.speed_rpm is not None:
+            raise refused(("speed_rpm",), "speed_rad_s and speed_rpm", "one of them")
+
+
+class CalibrateSection(Spreads):
+    """Numbers that are fitted to the measurements, with what is known of them before."""
+
+    runs: int = Field(default=48, ge=8, le=2000, description="Number of designs: sets of values that are simulated")
+    first: int = Field(default=16, ge=4, le=2000, description="Number of first designs, evenly spread")
+    batch: int = Field(default=4, ge=1, le=500, description="Number of designs per round, run in parallel")
+    draws: int = Field(default=256, ge=32, le=4096, description="Number of draws of the result, for tolerances.drawn_file")
+    seed: int = Field(default=0, ge=0, le=2**31, description="Seed of designs and draws")
+
+    def _check(self) -> None:
+        if not self.spreads:
+            raise refused((), "no number", "some under of_scenes or of_blades, each with its range")
+        if self.first > self.runs:
+            raise refused(("first",), f"{self.first}", f"at most runs ({self.runs})")
+
+
+MEASURED: ExtensionSection[Any] = ExtensionSection(
+    "measured",
+    list[MeasurementSection],
+    Field(default=[], description="Measurements beside the simulation (docs/measurement.md)"),
+)
+CALIBRATE: ExtensionSection[CalibrateSection | None] = ExtensionSection(
+    "calibrate",
+    CalibrateSection | LeftOut,  # type: ignore[arg-type]
+    Field(default=None, description="Numbers fitted to the measurements (docs/measurement.md)"),
+)

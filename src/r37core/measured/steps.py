@@ -1,0 +1,101 @@
+"""Steps of the workflow (docs/architecture.md): runs at measured speeds, the comparison, and a calibration."""
+
+import hashlib
+import json
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from r37core.base.dataset_file import write_dataset
+from r37core.base.io import JOB_NEWS, Named, as_list, read_json, write_json, write_text
+from r37core.base.origin import origin
+from r37core.base.plain import from_plain, to_plain
+from r37core.contact.scene import Scene
+from r37core.results.table_file import write_table
+from r37core.sweep.forks import forked_results
+from r37core.time_integration.integration_choice import IntegrationChoice
+
+from .calibration import Calibration, Numbers
+from .comparison import compared
+from .evaluation import Evaluation, observed_blade
+from .plan import Calibrated, Measured
+from .points import Measurement
+from .posterior import calibrated_scenes, calibration_dataset, drawn_table, number_table
+
+_SLIGHTLY_MORE = 1.001
+"""Factor of friction that shows by chance how much a value changes."""
+
+
+def observe(input: Any, output: Any, params: Any) -> None:
+    """Run a blade in a scene at the measured speeds, also with 0.1% more friction. Output: observed (json).
+
+    Inputs: model, and rom, mesh and whole where they are needed. Params: scene, choice, measurements, tip_line.
+    """
+    measurements = from_plain(dict[str, Measurement], params.measurements)
+    scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
+    blade = observed_blade(input, measurements, choice, params.tip_line, Path(output.observed).parent / "observed")
+    slightly = scene.friction and replace(scene.friction, coefficient=_SLIGHTLY_MORE * scene.friction.coefficient)
+    others = blade.simulated(replace(scene, friction=slightly)) if slightly else blade.simulated(scene)
+    numbers = {}
+    for (name, values, remark), (_, other, _) in zip(blade.simulated(scene), others, strict=True):
+        with np.errstate(invalid="ignore"):
+            scatter = np.abs(other - values)
+        known = {"values": values, "scatter": scatter}
+        finite = {key: [each if math.isfinite(each) else None for each in part.tolist()] for key, part in known.items()}
+        numbers[name] = finite | {"remark": remark}
+    write_json(numbers, output.observed)
+
+
+def compare(input: Any, output: Any, params: Any) -> None:
+    """List all measured points beside the simulation. Inputs: observed, of each blade and scene. Output: table (csv).
+
+    Params: measurements; errors, relative, of each of the pairs.
+    """
+    simulated = {name: numbers for file in as_list(input.observed) for name, numbers in read_json(file).items()}
+    errors = dict(zip(map(tuple, params.pairs), params.errors, strict=True))
+    write_table(compared(from_plain(dict[str, Measurement], params.measurements), simulated, errors), output.table, digits=6)
+
+
+def calibrate(input: Any, output: Any, params: Any) -> None:
+    """Fit numbers to measurements, round by round. Outputs: dataset (nc), table (csv), folder.
+
+    Inputs: lists of files, of each blade and scene. Params: carried (the settings), cores.
+    """
+    settings, folder = params.carried.settings, Path(output.folder).parent / ".calibration"
+    calibrated, measured = settings.made(Calibrated), settings.made(Measured)
+    run_all = partial(forked_results, params.cores)
+    blades = {
+        (blade, scene): observed_blade(
+            files,
+            measured.of_pair((blade, scene)),
+            settings.integration_choice(blade, scene, 0.0),
+            settings.scenes[scene].tip_line,
+            folder,
+        )
+        for (blade, scene), files in zip(measured.pairs, _lists(input), strict=True)
+    }
+    numbers = Numbers(calibrated.section.spreads, calibrated.nominal, calibrated.section.seed)
+    every = {name: each for pair in measured.pairs for name, each in measured.of_pair(pair).items()}
+    calibration = Calibration(every, numbers, run_all)
+    calibration.run(calibrated.budget(), Evaluation(settings, blades, folder, run_all).simulate, JOB_NEWS.info)
+    designs = json.dumps(to_plain([calibration.cube, [part.tolist() for part in calibration.simulated]]))
+    digest = hashlib.sha256(designs.encode()).hexdigest()[:32]
+    dataset = calibration_dataset(calibration, calibrated.section.draws)
+    made = {"fidelity": settings.fidelity_name, "input_hash": digest}
+    write_dataset(dataset, output.dataset, made | origin("Numbers fitted to measurements"))
+    write_table(number_table(dataset), output.table, digits=6)
+    results = Path(output.folder)
+    results.mkdir(parents=True)
+    write_table(drawn_table(dataset), results / "members.csv", digits=9)
+    write_text(calibrated_scenes(settings, dataset, [scene for _, scene in measured.pairs]), results / "calibrated_scenes.yaml")
+
+
+def _lists(input: Any) -> Iterator[Named]:
+    """Files of each blade and scene, of a job whose inputs are lists of them."""
+    columns = {name: as_list(files) for name, files in input.items() if name != "prepared"}
+    return (Named(**dict(zip(columns, files, strict=True))) for files in zip(*columns.values(), strict=True))

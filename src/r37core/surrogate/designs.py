@@ -1,0 +1,104 @@
+"""Designs that have been tried: what is known of one once its jobs are done, and which are the best.
+
+All are plain values, which `r37core.base.plain` carries.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+FEWEST_DONE = 3
+"""Fewest built designs for a fit; with fewer, proposals stay away from all that was tried."""
+
+Value = tuple[float, float]
+"""Value of a quantity, and its standard deviation; NaN for what is not known."""
+
+
+@dataclass(frozen=True)
+class SearchVariable:
+    """A number of the blade or of scenes by its name (VariedNumber), and the range that is searched; any unit."""
+
+    key: str
+    lowest: float
+    highest: float
+
+
+@dataclass(frozen=True)
+class Design:
+    """A design that has been tried.
+
+    `values` has a number for each variable. Every one of the `objectives` is to be minimised; its standard deviation stands in
+    `scatters`, 0 or NaN where it is not known. Every one of the `margins` is at least 0 where its constraint is kept. Of a
+    design that could not be built objectives, scatters and margins are NaN, and `refused` says why. `round`: which proposed
+    it; `quantities`: by name, as they were measured.
+    """
+
+    name: str
+    values: tuple[float, ...]
+    objectives: tuple[float, ...]
+    scatters: tuple[float, ...]
+    margins: tuple[float, ...]
+    round: int = 0
+    refused: str = ""
+    quantities: Mapping[str, Value] = field(default_factory=dict)
+
+    @property
+    def is_done(self) -> bool:
+        """True if every objective and margin is a finite number."""
+        return all(map(math.isfinite, (*self.objectives, *self.margins)))
+
+    @property
+    def is_feasible(self) -> bool:
+        """True if it could be built and keeps every constraint."""
+        return self.is_done and all(margin >= 0 for margin in self.margins)
+
+
+def shares(variables: Sequence[SearchVariable], values: Sequence[Sequence[float]]) -> np.ndarray:
+    """Where designs [design, variable] lie in the ranges: 0 at the lowest values, 1 at the highest."""
+    lowest, width = _ranges(variables)
+    return (np.asarray(values, dtype=float).reshape(-1, len(variables)) - lowest) / width
+
+
+def designs_at(variables: Sequence[SearchVariable], points: np.ndarray) -> list[tuple[float, ...]]:
+    """Values of the designs at `points` (shares of the ranges), in decimal steps of at most 1e-4 of each range, within it."""
+    lowest, width = _ranges(variables)
+    # a range of 20 has steps of 0.001, one of 0.3 of 0.00001
+    decimals = [4 - math.floor(math.log10(each)) for each in width]
+    return [
+        tuple(
+            min(max(round(float(value), places), variable.lowest), variable.highest)
+            for value, places, variable in zip(lowest + point * width, decimals, variables, strict=True)
+        )
+        for point in points
+    ]
+
+
+def _ranges(variables: Sequence[SearchVariable]) -> tuple[np.ndarray, np.ndarray]:
+    lowest = np.array([variable.lowest for variable in variables])
+    return lowest, np.array([variable.highest for variable in variables]) - lowest
+
+
+def not_dominated(evaluated: Sequence[Design]) -> list[Design]:
+    """The feasible designs than which no feasible one is better in an objective and as good in all, in the same order."""
+    feasible = [design for design in evaluated if design.is_feasible]
+    values = np.array([design.objectives for design in feasible])
+    pairs = zip(feasible, values, strict=True)
+    return [design for design, own in pairs if not np.any((values <= own).all(1) & (values < own).any(1))]
+
+
+def best_first(evaluated: Sequence[Design]) -> list[Design]:
+    """The feasible designs by the first objective, the lowest first.
+
+    Of equals the one with the larger smallest margin comes first, each margin in multiples of its standard deviation over all
+    designs, since units differ; then the name decides.
+    """
+    done = [design for design in evaluated if design.is_done]
+    deviations = np.std([design.margins for design in done], axis=0) if done else np.array([])
+
+    def rank(design: Design) -> tuple[float, float, str]:
+        scaled = np.array(design.margins) / np.where(deviations > 0, deviations, 1.0)
+        return design.objectives[0], -float(scaled.min(initial=np.inf)), design.name
+
+    return sorted((design for design in done if design.is_feasible), key=rank)
