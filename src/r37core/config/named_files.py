@@ -11,6 +11,9 @@ from typing import Any
 from .sections_entry import ASKED, OWN
 
 CONFIG_FILES = ("blades_file", "fidelity_file", "scenes_file")
+SECTION_FILES = {"measured": ("file",), "tolerances": ("drawn_file",)}
+"""Sections of config.yaml, or lists of them -> their keys with names of files."""
+
 TABLES, IMPORTED = ("profiles", "stacking_table", "designs"), ("mesh", "matrices", "sections")
 """Keys of blades with tables, and with files of other programs, which may be large or belong to others."""
 
@@ -41,3 +44,15 @@ def located_files(content: Any, keys: Iterable[str], file: Path, root: Path | No
     """The content of `file`, or an entry of it, with the files under some keys as `named_file` has them."""
     names = {key: content[key] for key in keys if isinstance(content.get(key), str)}
     return content | {key: named_file(name, file, root) for key, name in names.items() if name.strip() and name.isprintable()}
+
+
+def located_in_configuration(content: Mapping[str, Any], file: Path, root: Path | None) -> dict[str, Any]:
+    """The content of config.yaml with the files that it and its sections name as `named_file` has them."""
+    located = located_files(content, CONFIG_FILES, file, root)
+    for name, keys in SECTION_FILES.items():
+        section = located.get(name)
+        if isinstance(section, list):
+            located[name] = [located_files(each, keys, file, root) if isinstance(each, Mapping) else each for each in section]
+        elif isinstance(section, Mapping):
+            located[name] = located_files(section, keys, file, root)
+    return located

@@ -10,7 +10,7 @@ from .config_file import Config
 from .document import ConfigError, ConfigRefusals, Document, command_line_document, completed, entries_of, read_document
 from .families import Designs, expanded_families
 from .fidelity import Level, Levels
-from .named_files import CONFIG_FILES, IMPORTED, file_keys, located_files
+from .named_files import IMPORTED, file_keys, located_files, located_in_configuration
 from .scenes import SceneEntry, checked_scenes
 from .settings import Documents, Settings
 from .speed_section import UNITS
@@ -119,7 +119,7 @@ def configuration_file(folder: Path, name: str, root: Path | None = None) -> Doc
     document = read_document(folder, name)
     if not isinstance(document.content, dict):
         raise document.refusal((), repr(document.content)[:60], "keys and values, as in config/config.yaml")
-    return replace(document, content=located_files(document.content, CONFIG_FILES, folder / name, root))
+    return replace(document, content=located_in_configuration(document.content, folder / name, root))
 
 
 def together(below: Document, changes: Iterable[Document]) -> Document:

@@ -7,6 +7,7 @@ and Jasra (2006), J. R. Stat. Soc. B 68, 411-436 (sequential Monte Carlo); Press
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -20,6 +21,9 @@ _WIDER = 10.0
 """Factor of the uncertainty of such a point."""
 
 _MOVES = 6
+
+LATER = 24
+"""Designs, the last ones, by which a surrogate's error is judged: they lie where the measurements leave most possible."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +39,12 @@ class Likelihood:
     deviations: np.ndarray
     buildable: Callable[[np.ndarray], np.ndarray]
 
+    @cached_property
+    def widening(self) -> np.ndarray:
+        """Factor of each surrogate's deviation, shape (points,): from 1 on, by what it errs at designs that are left out."""
+        later = (fit.errors_left_out()[-LATER:] for fit in self.fits)
+        return np.array([max(float(np.sqrt(np.mean(errors**2))), 1.0) for errors in later])
+
     def residuals(self, cube: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Measured less simulated values, and their standard deviation, shape (points, draws).
 
@@ -42,7 +52,8 @@ class Likelihood:
         """
         means, deviations = zip(*(fit.at(cube) for fit in self.fits), strict=True)
         noise = np.array([fit.scale**2 * fit.noise for fit in self.fits])
-        variance = self.deviations[:, None] ** 2 + np.array(deviations) ** 2 + noise[:, None]
+        surrogate = self.widening[:, None] ** 2 * (np.array(deviations) ** 2 + noise[:, None])
+        variance = self.deviations[:, None] ** 2 + surrogate
         return self.measured[:, None] - np.array(means), np.sqrt(variance)
 
     def branches(self, cube: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,5 +1,6 @@
 """tolerances of config.yaml, and members of a sample: a blade and a scene with other values of the numbers under tolerances."""
 
+import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,8 +11,8 @@ from r37core.base.varied_number import VariedNumber
 from r37core.config import BladeSettings, ConfigError, Settings, blades_named, scenes_named
 from r37core.config.changed_numbers import ImpossibleValueError, changed_pair, check_known, nominal_value, scene_numbers
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
-from r37core.config.section import AllOrNames, ExtensionSection
-from r37core.config.spread import MemberCount, Spreads
+from r37core.config.section import AllOrNames, ExtensionSection, FileName, LeftOut, left_out
+from r37core.config.spread import MemberCount, SpreadEntry, Spreads
 from r37core.contact.scene import Scene
 from r37core.plans.member_values import drawn, sobol_points
 
@@ -23,6 +24,9 @@ class ToleranceSection(Spreads):
         default=32, description="Number of members, a power of two; a larger sample contains the smaller ones"
     )
     seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the sample")
+    drawn_file: FileName | LeftOut = left_out(
+        "Values of members (CSV) by names such as scene.damping_ratio, in place of distributions: members.csv of a calibration"
+    )
     blades: AllOrNames = Field(default="all", description="Blades with tolerances")
     scenes: AllOrNames = Field(default="all", description="Scenes with tolerances")
     largest_share: float = Field(
@@ -47,7 +51,25 @@ class Members:
 
     def __init__(self, settings: Settings):
         self._settings, self._entry = settings, settings.section(SECTION)
-        self.numbers = self._entry.spreads
+        self.numbers = self._drawn() if self._entry.drawn_file else self._entry.spreads
+
+    def _drawn(self) -> dict[VariedNumber, SpreadEntry]:
+        """Values of each number in the file, a row for each member. Raises ConfigError."""
+        document, path = self._settings.documents.config, (SECTION.name, "drawn_file")
+        file, members = self._settings.root / str(self._entry.drawn_file), self._entry.members
+        if self._entry.spreads:
+            raise document.refusal(path, "distributions beside it", "one of them")
+        try:
+            with open(file, newline="", encoding="utf-8") as stream:
+                rows = [{str(name): float(value) for name, value in row.items()} for row in csv.DictReader(stream)]
+        except (OSError, ValueError, TypeError) as error:
+            raise document.error(path, f"{file}: {error}; allowed: a CSV with a number in each field") from None
+        if len(rows) < members:
+            raise document.refusal(path, f"{len(rows)} rows in {file}", f"{members} or more, one for each member")
+        # evenly over the rows, whose first ones a calibration finds most likely
+        kept = [rows[place * len(rows) // members] for place in range(members)]
+        # joined as they were drawn: several members may share a value
+        return {VariedNumber.named(name): SpreadEntry.model_construct(values=[row[name] for row in kept]) for name in rows[0]}
 
     @cached_property
     def pairs(self) -> list[tuple[str, str]]:
@@ -90,7 +112,11 @@ class Members:
 
         Raises ConfigError for a number that is not there, and for a value that is impossible.
         """
-        points = sobol_points(len(self.numbers), self._entry.members, self._entry.seed) if self.pairs else {}
+        count = self._entry.members
+        points = sobol_points(len(self.numbers), count, self._entry.seed) if self.pairs else {}
+        if self._entry.drawn_file:
+            # the place of each member's row
+            points = {name: ((int(name) + 0.5) / count,) * len(self.numbers) for name in points}
         return {pair: self._run_members(*pair, points) for pair in self.pairs}
 
     def _run_members(self, blade: str, scene: str, points: Mapping[str, Sequence[float]]) -> dict[str, Member]:
