@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .run_up_calls import run_up, run_ups
     from .runs import run
     from .simulations import campbell, reduced_model, simulate, sweep
-    from .studies import compare, designs, rotor, search, tolerances
+    from .studies import compare, compare_measured, designs, rotor, search, tolerances
     from .study_folder import SNAKEFILE, init
 
 __all__ = [
@@ -43,6 +43,7 @@ __all__ = [
     "blades",
     "campbell",
     "compare",
+    "compare_measured",
     "designs",
     "init",
     "open_results",
@@ -76,7 +77,7 @@ _NAMES_OF = {
     ".run_up_calls": ("run_up", "run_ups"),
     ".runs": ("run",),
     ".simulations": ("campbell", "reduced_model", "simulate", "sweep"),
-    ".studies": ("compare", "designs", "rotor", "search", "tolerances"),
+    ".studies": ("compare", "compare_measured", "designs", "rotor", "search", "tolerances"),
     ".study_folder": ("SNAKEFILE", "init"),
 }
 """Modules that are imported when one of their names is first used: the command starts in a tenth of a second."""

@@ -9,6 +9,7 @@ from typing import Any
 from r37core.base.io import temporary_folder
 from r37core.config import ConfigError
 from r37core.config.messages import single_line
+from r37core.config.named_files import located_in_configuration
 from r37core.product.extensions import EXTENSIONS
 
 from .arguments import Speeds, plain_value, speed_keys
@@ -77,7 +78,7 @@ def run(
         if (key := f"{kind}s_file") in sections:
             allowed = f"config=, a config.yaml that names it, or {kind}s from r37.{kind}(name, file=...)"
             raise ConfigError(f"{key}: found {single_line(repr(sections[key]))}; allowed: {allowed}")
-    keys = {name: plain_value(section) for name, section in sections.items()}
+    keys = located_in_configuration(plain_value(sections), Path.cwd() / "call", None)
     if speeds is not None or speeds_rpm is not None:
         keys |= speed_keys(speeds, speeds_rpm)
     options: RunOptions = {"fidelity": fidelity, "results": results, "config": config, "cores": cores, "folder": folder}

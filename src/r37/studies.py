@@ -20,10 +20,10 @@ from r37core.search.section import SearchSection
 from r37core.tolerances.members import ToleranceSection
 
 from .arguments import Speeds, keys_of_its_own, mapping, plain_value, speed_keys
-from .call_settings import call_of, chosen_scene, names_of_their_own, several
+from .call_settings import base_of, call_of, chosen_blade, chosen_scene, names_of_their_own, several
 from .choices import BladeChoice, SceneChoice
 from .run_results import RunResults
-from .runs import Blades, Scenes, SweepOptions, named_call, run_of
+from .runs import Blades, RunOptions, Scenes, SweepOptions, named_call, run, run_of
 from .stages import checked_call, checked_call_of
 
 
@@ -126,6 +126,39 @@ def designs(
     if scene_entry:
         call = replace(call, scenes=[scene.family(f"{scene.name}-varied", scene_entry) for scene in call.scenes])
     return run_of(call, options)
+
+
+@checked_call
+def compare_measured(
+    blade: BladeChoice | str,
+    scene: SceneChoice | str,
+    measured: Mapping[str, Any] | Sequence[Mapping[str, Any]],
+    **options: Unpack[RunOptions],
+) -> pd.DataFrame:
+    """Measured points beside what simulations of the same speeds give, as in measured.csv of a run.
+
+    Args:
+        measured: Entries of the section `measured`, without blade and scene: `{"file": "tip.csv", "quantity":
+            "displacement_tangential"}`. The file may be a DataFrame.
+
+    Returns:
+        A row for each point, with the uncertainty of both values, and their difference over it.
+
+    Raises:
+        ConfigError: For bad input, and a file that fits no quantity.
+
+    Examples:
+        >>> table = pd.DataFrame({"speed_rad_s": [1150.0], "amplitude (mm)": [1.0]})
+        >>> rubbed = {"file": table, "quantity": "displacement_tangential", "uncertainty_percent": 10}
+        >>> r37.compare_measured("Ref", "abradable", rubbed, fidelity="draft")["unit"].tolist()
+        ['m']
+    """
+    config = options.get("config")
+    chosen = chosen_blade(blade, config)
+    named = {"blade": chosen.name, "scene": chosen_scene(scene, base_of([chosen], config)).name}
+    entries = [measured] if isinstance(measured, Mapping) else measured
+    keys = [{**named, **mapping(entry, "measured", "an entry of the section measured")} for entry in entries]
+    return run(blade, scene, measured=keys, targets="measured_table", **options).tables["measured"]
 
 
 @checked_call_of(ToleranceSection)

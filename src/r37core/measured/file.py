@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from r37core.config.messages import single_line
+
 from .points import ORDER, STRAIN, TIP_TIMING, WORN_DEPTH, Points, first_speed_above
 
 MOST_SPEEDS = 60
@@ -109,13 +111,15 @@ def read_points(file: Path, reading: Reading, *, asked: bool = False) -> tuple[P
 
 def _read(file: Path) -> pd.DataFrame:
     try:
-        if file.stat().st_size > _MOST_BYTES or not file.is_file():
-            raise MeasurementError("file", f"{file}: allowed: a file of at most {_MOST_BYTES // 1_000_000} MB")
-        table = pd.read_csv(file, sep=None, engine="python", comment="#", skipinitialspace=True, encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError, ValueError, pd.errors.ParserError) as error:
-        if isinstance(error, MeasurementError):
-            raise
-        raise MeasurementError("file", f"{file}: {str(error) or type(error).__name__}; allowed: a CSV with a header") from None
+        if not file.is_file() or file.stat().st_size > _MOST_BYTES:
+            raise ValueError(f"no file of at most {_MOST_BYTES // 1_000_000} MB is there")
+        with open(file, encoding="utf-8-sig") as stream:
+            header = next((line for line in stream if line.strip() and not line.startswith("#")), "")
+        separator = max(",;\t", key=header.count)
+        table = pd.read_csv(file, sep=separator, comment="#", skipinitialspace=True, encoding="utf-8-sig")
+    except (OSError, ValueError) as error:
+        # those of pandas are ValueErrors
+        raise MeasurementError("file", f"{single_line(str(error))}; allowed: a CSV with a header") from None
     return table.rename(columns=lambda name: str(name).strip())
 
 

@@ -1,0 +1,167 @@
+"""Measurements: files, what a run says at their points, and the comparison."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from r37core.measured.comparison import compared
+from r37core.measured.file import MOST_SPEEDS, MeasurementError, Reading, read_points
+from r37core.measured.observed import statistic
+from r37core.measured.points import Measurement, Points, first_speed_above, turned_profile
+from r37core.results.agreement import agreeing, disagreements, disagrees, groups, words
+
+READING = Reading("displacement_normal", "rms", 0, "", "", 0.05, np.nan, {})
+WORN = replace(READING, quantity="worn_depth", speed=1200.0)
+
+
+@pytest.fixture
+def read(tmp_path):
+    def points(text, reading=READING, **options):
+        (tmp_path / "file.csv").write_text(text, encoding="utf-8")
+        return read_points(tmp_path / "file.csv", reading, **options)[0]
+
+    return points
+
+
+@pytest.mark.parametrize(
+    "header, speed, value",
+    [
+        ("speed_rad_s,amplitude_m", 1000.0, 2e-3),
+        ("n (rpm),a (mm)", 1000.0 * np.pi / 30, 2.0),
+        ("n [1/min],a [um]", 1000.0 * np.pi / 30, 2000.0),
+        ("rpm,amplitude_\u00b5m", 1000.0 * np.pi / 30, 2000.0),
+        ("rotation_hz,tip_mil", 2000.0 * np.pi, 2e-3 / 2.54e-5),
+    ],
+)
+def test_a_column_has_the_unit_of_its_name(read, header, speed, value):
+    points = read(f"# a test\n{header}\n1000,{value!r}\n")
+    assert points.speeds == pytest.approx((speed,)) and points.values == pytest.approx((2e-3,))
+    assert points.deviations == pytest.approx((1e-4,))
+
+
+def test_rows_without_a_number_are_left_out_and_speeds_ascend(read):
+    points = read("speed_rpm;a_mm;uncertainty_mm\n3000;2;0.2\n2000;;0.1\n1000;1;0.1\n")
+    assert points.values == (1e-3, 2e-3) and points.deviations == (1e-4, 2e-4) and points.dropped == 1
+    assert points.speeds == pytest.approx((1000 * np.pi / 30, 3000 * np.pi / 30))
+
+
+def test_a_long_file_has_rows_that_are_chosen_and_a_wide_one_columns(read):
+    long = "blade,speed_rad_s,a_m\nA,1,1\nB,1,2\nB,2,4\n"
+    assert read(long, replace(READING, rows={"blade": "B"})).values == (2.0, 4.0)
+    wide = "speed_rad_s,a_m,b_m\n1,1,3\n"
+    assert read(wide, replace(READING, value="b_m")).values == (3.0,)
+    with pytest.raises(
+        MeasurementError, match=r"2 columns that it may be; .*a_m \(length\), b_m"
+    ) as refused:
+        read(wide)
+    assert refused.value.key == "value"
+    with pytest.raises(MeasurementError, match=r"the columns are: speed_rad_s \(speed\), a_m \(length\), b_m \(length\)"):
+        read(wide, asked=True)
+
+
+def test_a_speed_that_was_measured_twice_has_the_mean(read):
+    points = read("speed_rad_s,a_m\n1,1\n1,3\n2,5\n")
+    assert points.values == (2.0, 5.0)
+    np.testing.assert_allclose(points.deviations[0], np.hypot(0.05, 0.15) / 2)
+
+
+def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
+    speeds = np.linspace(1000, 2000, 100_001)
+    values = 1.0 + 1.0 / (1.0 + (speeds - 1234.56) ** 2)
+    points = read("speed_rad_s,a_m\n" + "".join(f"{a:.9g},{b:.9g}\n" for a, b in zip(speeds, values, strict=True)))
+    assert len(points.values) <= MOST_SPEEDS + 1 and max(points.values) == pytest.approx(2.0)
+    assert points.dropped == 100_001 - len(points.values)
+
+
+@pytest.mark.parametrize(
+    "text, reading, told",
+    [
+        ("speed_rad_s,a\n1,1\n", READING, r"no column of displacement_normal.*a \(no number\)"),
+        ("speed,a_m\n1,1\n", READING, "no column with a speed, in rad/s or rpm"),
+        ("speed_rad_s,a_m\n1,x\n", READING, "found 'x' under a_m, in row 1"),
+        ("speed_rad_s,a_m\n1,-1\n", READING, "found a_m -1; allowed: 0 or more"),
+        ("speed_rad_s,a_m\n0,1\n", READING, "a speed of 0 rad/s"),
+        ("speed_rad_s,a_m\n,\n", READING, "no row with all numbers"),
+        ("speed_rad_s,a_m\n1,0\n", READING, "values that are all 0"),
+        ("speed_rad_s,a_m\n1,1\n", replace(READING, percent=None), "neither it nor a column 'uncertainty'"),
+        ("speed_rad_s,a_m,sigma_m\n1,1,0\n", READING, "above 0, a standard deviation"),
+        ("speed_rad_s,a_m\n1,1\n", replace(READING, rows={"blade": "A"}), "no column 'blade'"),
+        ("", READING, "allowed: a CSV with a header"),
+        ("speed_rad_s,angle_deg,d_m\n1,0,1\n2,0,1\n", WORN, "over angles at 2 speeds"),
+        ("speed_rad_s,a_m\n1,1\n2,2\n", replace(READING, first_above=3.0), "values from 1 to 2; allowed: a limit"),
+    ],
+)
+def test_a_file_that_fits_nothing_says_what_would(read, text, reading, told):
+    with pytest.raises(MeasurementError, match=told):
+        read(text, reading)
+
+
+def test_first_speed_above_a_limit_lies_anywhere_between_two_speeds(read):
+    text = "speed_rad_s,a_m\n100,1\n110,1\n120,3\n130,9\n"
+    points = read(text, replace(READING, first_above=2.0))
+    assert points.values == (115.0,)
+    np.testing.assert_allclose(points.deviations, 10.0 / np.sqrt(12.0))
+    assert first_speed_above(np.array([1.0, 2.0]), np.array([1.0, 1.0]), 2.0) == np.inf
+
+
+def test_a_time_signal_is_amplitudes_of_its_engine_orders(read):
+    """Of a made-up signal of orders 3 and 7, with an offset."""
+    times = np.arange(0, 0.2, 2e-4)
+    signal = 5.0 + 0.4 * np.cos(3 * 1000 * times + 0.3) + 0.1 * np.sin(7 * 1000 * times)
+    text = "time_s,a_mm\n" + "".join(f"{t:.6g},{v:.9g}\n" for t, v in zip(times, signal, strict=True))
+    points = read(text, replace(READING, speed=1000.0))
+    assert points.orders == (3, 7)
+    np.testing.assert_allclose(points.values, [4e-4, 1e-4], rtol=1e-6)
+
+
+def test_a_profile_is_turned_to_where_it_fits_and_says_when_it_is_backwards(read):
+    angles = np.arange(360.0)
+    wear = 1e-4 * (1.0 + np.exp(-(((angles - 90.0) / 20.0) ** 2)) + 0.5 * np.exp(-(((angles - 200.0) / 8.0) ** 2)))
+    rows = "".join(f"{(a - 50.0) % 360},{1e6 * wear[int(a)]:.6g}\n" for a in angles[::6])
+    points = read(f"angle_deg,depth_um\n{rows}", WORN)
+    profile, remark = turned_profile(wear, points)
+    np.testing.assert_allclose(profile, points.values, rtol=0.05)
+    assert remark == "turned by 50 degrees" or remark == "turned by 51 degrees"
+    backwards = replace(points, angles=tuple(-np.array(points.angles) % (2.0 * np.pi)))
+    assert "read backwards" in turned_profile(wear, backwards)[1]
+    # many points are means of a degree
+    many = read("angle_deg,depth_um\n" + "".join(f"{a / 100},{a % 100}\n" for a in range(36_000)), WORN)
+    assert len(many.values) == 360 and many.dropped == 35_640
+    np.testing.assert_allclose(many.values, 49.5e-6)
+
+
+def test_a_statistic_is_that_of_its_name():
+    turn = np.arange(400) / 100
+    signal = 0.5 + 3.0 * np.cos(2.0 * np.pi * 4 * turn)
+    measurement = Measurement("f", "A", "s", "displacement_normal", Points((), (), (), ()))
+    assert statistic(signal, 100, measurement, 4) == pytest.approx(3.0)
+    assert statistic(signal, 100, measurement, 5) == pytest.approx(0.0, abs=1e-12)
+    assert statistic(signal, 100, measurement, 0) == pytest.approx(np.sqrt(0.25 + 4.5))
+    assert statistic(signal, 100, replace(measurement, statistic="half_peak_to_peak"), 0) == pytest.approx(3.0)
+
+
+def comparison(simulated, scatter=(0.0, 0.0, 0.0), error=0.0):
+    points = Points((100.0, 200.0, 300.0), (1.0, 2.0, 4.0), (0.1, 0.1, 0.1), (0, 0, 0))
+    measurement = Measurement("tip.csv", "A", "s", "displacement_normal", points)
+    numbers = {"m0": {"values": simulated, "scatter": scatter, "remark": ""}}
+    return compared({"m0": measurement}, numbers, {("A", "s"): error})
+
+
+def test_a_difference_is_in_units_of_both_uncertainties():
+    table = comparison([1.3, 2.0, 4.0], error=0.1)
+    np.testing.assert_allclose(table["simulated_uncertainty"], [0.13, 0.2, 0.4])
+    np.testing.assert_allclose(table["difference_over_uncertainty"], [0.3 / np.hypot(0.1, 0.13), 0.0, 0.0])
+    assert agreeing(table).tolist() == [True, True, True]
+    by_chance = comparison([1.3, 2.0, 4.0], scatter=[0.2, 0.0, 0.0])
+    assert by_chance["difference_over_uncertainty"][0] == pytest.approx(0.3 / np.hypot(0.1, 0.2))
+
+
+def test_words_say_how_many_points_agree_and_where_others_lie():
+    table = comparison([1.0, 4.0, None])
+    assert words(table) == "1 of 3 points within 2 sigma; 200 rad/s: simulated 2 times measured; 300 rad/s: diverged"
+    assert disagrees(table) and not disagrees(comparison([1.0, 2.0, 4.0]))
+    note = "disagrees with its measurement (displacement_normal, rms: 1 of 3 points agree)"
+    assert disagreements(pd.concat([table, comparison([1.0, 2.0, 4.0]).assign(blade="B")])) == {("A", "s"): note}
+    assert [key for key, _ in groups(table)] == [("A", "s", "displacement_normal, rms", "tip.csv")]
