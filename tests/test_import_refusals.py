@@ -142,7 +142,7 @@ def deck(tmp_path):
 
 
 def read(folder, name="mesh.inp", root="root", tip="tip"):
-    return import_mesh(MeshSource(name, OURS, Where(root), Where(tip), sense_check=False), folder)[0]
+    return import_mesh(MeshSource(name, OURS, Where((root,)), Where((tip,)), sense_check=False), folder)[0]
 
 
 @pytest.mark.parametrize("name", ["mesh.dat", "mesh.msh", "mesh.nas", "mesh.TXT", "mesh"])
@@ -258,7 +258,7 @@ def test_an_element_that_is_missing_inside_is_told(tmp_path, element, cell, mess
     here = np.all(np.abs(mesh.points[nodes].mean(axis=1) - place) < np.array((0.005, 0.002 / layers, 0.005)), axis=1)
     write_mesh(replace(mesh, blocks={element: nodes[~here]}), tmp_path / "mesh.vtu")
     with pytest.warns(MeshWarning, match=message):
-        import_mesh(MeshSource("mesh.vtu", OURS, Where("root"), Where("tip"), drop_free_nodes=True), tmp_path)
+        import_mesh(MeshSource("mesh.vtu", OURS, Where(("root",)), Where(("tip",)), drop_free_nodes=True), tmp_path)
 
 
 def test_elements_of_two_orders_must_not_touch(tmp_path):
@@ -267,7 +267,7 @@ def test_elements_of_two_orders_must_not_touch(tmp_path):
     mixed = replace(mesh, blocks={"hexahedron": nodes[:9, :8], "hexahedron20": nodes[9:]})
     write_mesh(mixed, tmp_path / "mesh.vtu")
     with pytest.raises(ImportRefused, match=r"the mid-nodes of 10 edges, for example between the nodes \d+, \d+, belong"):
-        import_mesh(MeshSource("mesh.vtu", OURS, Where("root"), Where("tip"), drop_free_nodes=True), tmp_path)
+        import_mesh(MeshSource("mesh.vtu", OURS, Where(("root",)), Where(("tip",)), drop_free_nodes=True), tmp_path)
 
 
 @pytest.mark.parametrize("face", ["S0", "S7", "S", "P1", "SPOS", "S1.5"])
@@ -325,7 +325,7 @@ def test_the_first_answer_recognises_a_flat_tip(tmp_path):
     y, z = mesh.points[:, 1], mesh.points[:, 2]
     points = np.stack([mesh.points[:, 0], np.sqrt(0.5) * (y + z), np.sqrt(0.5) * (z - y)], axis=1)
     write_mesh(replace(mesh, points=points), tmp_path / "flat.vtu")
-    source = MeshSource("flat.vtu", OURS, Where("?"), Where("?"))
+    source = MeshSource("flat.vtu", OURS, Where(("?",)), Where(("?",)))
     with pytest.raises(ImportRefused, match=r"root: found no set '\?'; and tip: found no set '\?'; the file has: ") as refusal:
         import_mesh(source, tmp_path)
     assert str(refusal.value).count("the file has") == 1

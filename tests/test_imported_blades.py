@@ -65,7 +65,7 @@ def test_a_mesh_has_what_it_leaves_out_from_its_base(settings_with, config_copy)
     blades = settings_with(MESH, {"Other": other}, blades=("Fan", "Other")).blades
     own, base = blades["Other"], blades["Fan"]
     definition = replace(
-        base.definition, file="meshes/other.inp", root=Where("foot", tolerance=0.0), digest=own.definition.digest
+        base.definition, file="meshes/other.inp", root=Where(("foot",), tolerance=0.0), digest=own.definition.digest
     )
     assert own.definition == definition and own.definition.digest != base.definition.digest
     assert own.material == replace(base.material, density=4500.0)
@@ -132,7 +132,7 @@ def test_an_imported_blade_has_no_table_to_vary(settings_with, entry, changes, m
 def test_a_mesh(settings_with, config_copy):
     settings = settings_with(MESH | {"pressure_side": "backward", "axis_point": [1, 2, 3]})
     source = settings.blades["Fan"].definition
-    assert (source.file, source.root) == ("meshes/fan.inp", Where("hub", tolerance=0.0))
+    assert (source.file, source.root) == ("meshes/fan.inp", Where(("hub",), tolerance=0.0))
     assert source.tip == Where(limits=(("r", "at_least", 0.25),))
     assert not source.pressure_side_forward
     np.testing.assert_allclose(source.orientation.points_to_blade(np.array([[1.0, 2.0, 1003.0]])), [[1.0, 0.0, 0.0]])

@@ -36,8 +36,10 @@ class SurfaceRule(Section):
     z_at_most_m: Length = left_out("Upper bound of the axial coordinate")
 
     def _check(self) -> None:
-        if not self._limits() and self.cone_zr_m is None:
-            raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m")
+        if not (self._limits() or self.cone_zr_m or self.planes_m or self.sets):
+            raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m, planes_m or sets")
+        if [0.0, 0.0, 0.0] in self.planes_m:
+            raise refused(("planes_m",), "a plane through the origin", "planes that do not contain it")
         if self.cone_zr_m is not None and self.cone_zr_m[0] == self.cone_zr_m[1]:
             raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
         if self.cone_zr_m is not None and min(radius for _, radius in self.cone_zr_m) < 0.0:
@@ -149,5 +151,4 @@ class MatricesEntry(Oriented):
 def _where(rule: Any) -> Where:
     if isinstance(rule, SurfaceRule):
         return rule.where()
-    first, *further = [rule] if isinstance(rule, str) else rule
-    return Where(first, tuple(further), tolerance=0.0)
+    return Where((rule,) if isinstance(rule, str) else tuple(rule), tolerance=0.0)

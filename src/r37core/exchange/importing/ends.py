@@ -95,10 +95,10 @@ def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> C
     members = where.nodes(what, mesh)
     mask = mask_within(surface, members)
     faces = chosen(surface, mask)
-    if what == "root" and where.set_name is not None and members.any():
+    if what == "root" and where.sets and members.any():
         return Caught(np.flatnonzero(members), faces, mask)
     if not mask.any():
-        remark = "" if where.set_name is None else f", which has {members.sum()} nodes"
+        remark = f", which has {members.sum()} nodes" if where.sets else ""
         raise ImportRefused(
             f"{what}: no outer face has all its nodes within {where.describe()}{remark}; give another set or rule, or a wider "
             f"tolerance_m"
@@ -113,7 +113,7 @@ def check_end(what: str, where: Where, caught: Caught, end: End | None, points: 
     `points`. A set as the root says what it means: any nodes may be clamped.
     """
     straight = end is not None and end.straight
-    if where.set_name is not None and (what == "root" or not straight):
+    if where.sets and (what == "root" or not straight):
         return
     if end is not None and straight:
         expected, beside = end.mask, (caught.mask & ~end.mask).sum()

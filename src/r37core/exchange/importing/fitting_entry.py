@@ -52,7 +52,7 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
             entry |= _tolerance_of_flat_tip(mesh.points[end.nodes], source.revolution_tolerance)
     platform = None if source.hub_zr else find_platform(mesh.points, surface)
     if platform is not None:
-        entry["hub_zr_m"] = platform.meridian_as_yaml()
+        entry["hub_zr_m"] = platform.points_as_yaml()
     return entry
 
 

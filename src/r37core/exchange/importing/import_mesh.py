@@ -89,7 +89,7 @@ def _span_in_words(mesh: BladeMesh, source: MeshSource) -> str:
     if source.hub_zr is not None:
         return "span begins at hub_zr_m, stress regions with a minimum_span lie above"
     platform = find_platform(mesh.points, outer_faces(mesh.blocks))
-    hint = "" if platform is None else f"; the root is modelled: at its platform with hub_zr_m: {platform.meridian_as_yaml()}"
+    hint = "" if platform is None else f"; the root is modelled: at its platform with hub_zr_m: {platform.points_as_yaml()}"
     return f"span begins at the clamped faces{hint}"
 
 
