@@ -7,6 +7,7 @@ from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
+from r37core.exchange.refusal import ASKED
 
 from .blade_sections import (
     CONTACT_IN_WORDS,
@@ -126,7 +127,13 @@ class MeshEntry(Oriented):
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
         ends, digest = {"root": _where(self.root), "tip": _where(self.tip)}, digest_of(mesh_files(self.mesh, root))
-        return si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, **ends)
+        source = si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, **ends)
+        if ASKED in (self.root, self.tip):
+            # answered before any job, in a dry run too; what reads meshes takes time to load
+            from r37core.exchange.importing.import_mesh import import_mesh
+
+            import_mesh(source, root)
+        return source
 
 
 @declared_by(MatricesSource)

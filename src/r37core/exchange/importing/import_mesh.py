@@ -19,15 +19,8 @@ from .raw_mesh import RawMesh
 from .source import MeshSource, kind_of, mesh_files
 from .tip import TipLines, check_revolution, check_sense, find_tip_lines
 
-_READERS: dict[str, Callable[[Path], RawMesh]] = {
-    ".inp": read_abaqus,
-    ".msh": read_with_meshio,
-    ".vtu": read_with_meshio,
-    ".med": read_with_meshio,
-    ".bdf": read_nastran,
-    ".nas": read_nastran,
-    ".cdb": read_ansys,
-}
+_READERS: dict[str, Callable[[Path], RawMesh]] = dict.fromkeys((".msh", ".vtu", ".med"), read_with_meshio)
+_READERS |= {".inp": read_abaqus, ".bdf": read_nastran, ".nas": read_nastran, ".cdb": read_ansys}
 
 
 def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
@@ -54,7 +47,7 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
                 f"; with length_unit {source.orientation.length_unit} the blade reaches from {radius.min():.4g} to "
                 f"{radius.max():.4g} m from the axis"
             )
-        raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw)) from None
+        raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw) | _known_sets(source, raw)) from None
     raw = placed
     height = source.height(raw.points)
     if height is not None and (height[tip].min() <= 0.0 or height[root].min() > 0.01 * height[tip].max()):
@@ -71,6 +64,19 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     sets["leading_edge"], sets["trailing_edge"] = edge[:1], edge[-1:]
     parameters[root, 1], parameters[tip, 1] = 0.0, 1.0
     return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
+
+
+_MOST_NAMES = 30
+
+
+def _known_sets(source: MeshSource, mesh: RawMesh) -> dict[str, str]:
+    """A remark with the sets of the file where the entry names one that it lacks, or asks."""
+    wanted = {name.upper() for where in (source.root, source.tip) for name in where.sets + where.without}
+    if wanted <= {name.upper() for name in mesh.sets}:
+        return {}
+    known = [f"{name} ({len(nodes)} nodes)" for name, nodes in sorted(mesh.sets.items()) if len(nodes)]
+    more = f", and {len(known) - _MOST_NAMES} more" if len(known) > _MOST_NAMES else ""
+    return {"# sets of the file": f"{', '.join(known[:_MOST_NAMES]) or 'none'}{more}"}
 
 
 def size_in_words(mesh: BladeMesh, source: MeshSource) -> str:

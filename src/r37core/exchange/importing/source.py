@@ -41,18 +41,15 @@ class Where:
         tuple[tuple[float, float], tuple[float, float]] | None,
         Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
     ] = None
-    planes: Annotated[
-        tuple[tuple[float, float, float], ...],
-        Key("planes, each by its point [x, y, z] nearest to the origin", "_m", ge=-100, le=100),
-    ] = ()
+    planes: Annotated[tuple[tuple[float, float, float], ...], Key("planes, each by its point nearest to the origin", "_m")] = ()
     tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", ge=1e-9, le=0.1)] = 1e-4
 
     def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
         """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
-        members = self.within(mesh.points)
-        if self.sets:
-            members &= _in_any(self.sets, what, mesh)
-        return members & ~_in_any(self.without, what, mesh)
+        in_sets, left_out = (
+            np.any([_edge_nodes(what, name, mesh) for name in names], axis=0) for names in (self.sets, self.without)
+        )
+        return self.within(mesh.points) & (in_sets | (not self.sets)) & ~left_out
 
     def within(self, points: np.ndarray) -> np.ndarray:
         """Mask over `points` (m), shape (n, 3), that keep limits, cone and planes."""
@@ -82,8 +79,7 @@ class Where:
         parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
         if self.cone_zr is not None:
             parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
-        if self.planes:
-            parts.append("a plane of planes_m")
+        parts += ["a plane of planes_m"] * bool(self.planes)
         named = ["the set " + " and ".join(map(repr, self.sets))] if self.sets else []
         rules = [f"the rule '{' and '.join(parts)}, to {self.tolerance:g} m'"] if parts else []
         return " and ".join(named + rules) + "".join(f" without '{name}'" for name in self.without)
@@ -208,32 +204,24 @@ def digest_of(files: Iterable[Path]) -> str:
     return digest.hexdigest()[:16]
 
 
-_MOST_NAMES = 30
-
-
 def _plain(number: float) -> str:
     """Number without an exponent: some readers of YAML take 1e-05 for a text."""
     return np.format_float_positional(number, trim="-")
-
-
-def _in_any(names: tuple[str, ...], what: str, mesh: RawMesh) -> np.ndarray:
-    return np.any([_edge_nodes(what, name, mesh, _set_members(what, name, mesh)) for name in names], axis=0)
 
 
 def _set_members(what: str, name: str, mesh: RawMesh) -> np.ndarray:
     """Mask over the nodes of a set, whose name may differ in capitals."""
     names = {known.upper(): known for known in mesh.sets}
     if name.upper() not in names:
-        known = [f"{known} ({len(nodes)} nodes)" for known, nodes in sorted(mesh.sets.items()) if len(nodes)]
-        more = f", and {len(known) - _MOST_NAMES} more" if len(known) > _MOST_NAMES else ""
-        raise ImportRefused(f"{what}: found no set '{name}'; the file has: {', '.join(known[:_MOST_NAMES]) or 'none'}{more}")
+        raise ImportRefused(f"{what}: found no set '{name}'")
     members = np.zeros(len(mesh.points), dtype=bool)
     members[mesh.sets[names[name.upper()]]] = True
     return members
 
 
-def _edge_nodes(what: str, name: str, mesh: RawMesh, members: np.ndarray) -> np.ndarray:
+def _edge_nodes(what: str, name: str, mesh: RawMesh) -> np.ndarray:
     """The nodes of a set; where it has corners of elements alone, with the mid-nodes of edges between them."""
+    members = _set_members(what, name, mesh)
     middle = np.zeros(len(members), dtype=bool)
     between = np.zeros(len(members), dtype=bool)
     for kind, nodes in mesh.blocks.items():
