@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import yaml
+from box_mesh import write_deck
 from defaults import Where
 from workflow_runs import overlay
 
@@ -141,6 +142,18 @@ def test_a_mesh(settings_with, config_copy):
     before = structure_hash(settings, "Fan")
     (config_copy / "meshes/more.inc").write_text("1, 0, 0, 1\n")
     assert structure_hash(read_settings(config_copy), "Fan") != before
+
+
+def test_what_a_mesh_asks_is_answered_as_the_configuration_is_read(settings_with, config_copy):
+    """As in a dry run: no job is needed."""
+    settings_with(MESH)
+    write_deck(config_copy / "meshes/asked.inp")
+    entry = MESH | {"mesh": "meshes/asked.inp", "length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0]}
+    overlay(config_copy, "blades.yaml", yaml.safe_dump({"Fan": entry | {"root": "?", "sense_check": False}}))
+    with pytest.raises(
+        ConfigError, match=r"Fan\.root: meshes/asked\.inp: root: found no set '\?'(.|\n)*\n  root: \{ cone_zr_m"
+    ):
+        read_settings(config_copy)
 
 
 def test_a_mesh_with_another_material(settings_with):

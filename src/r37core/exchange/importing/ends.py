@@ -76,13 +76,12 @@ def find_flanks(points: np.ndarray, surface: list[Faces]) -> End | None:
     areas = np.bincount(patch + 1, sizes)[1:]
     mask, planes = np.zeros(len(patch), dtype=bool), []
     for number in np.flatnonzero(areas >= _LARGE * areas.max(initial=1e-300)):
-        nodes = nodes_of(chosen(surface, patch == number))
-        normal = vectors[patch == number].sum(axis=0)
-        heights = points @ (normal / np.linalg.norm(normal))
+        nodes, normal = nodes_of(chosen(surface, patch == number)), vectors[patch == number].sum(axis=0)
+        heights = points @ (normal := normal / np.linalg.norm(normal))
         # a fillet has the platform below and before it
         if heights[distance < distance[nodes].min()].max(initial=-np.inf) < heights[nodes].mean() + _TOLERANCES[0]:
             mask |= patch == number
-            planes.append(heights[nodes].mean() * normal / np.linalg.norm(normal))
+            planes.append(heights[nodes].mean() * normal)
     aside, feet = (sizes * looks[:, 1])[mask], tuple(map(tuple, (np.round(planes, _ROUNDED) + 0.0).tolist()))
     is_even = abs(aside.sum()) <= _UNEVEN * np.abs(aside).sum()
     for rule in (Where(planes=feet, tolerance=tolerance) for tolerance in _TOLERANCES[:-1]):
@@ -148,8 +147,9 @@ def check_end(what: str, where: Where, caught: Caught, end: End | None, points: 
     Without an end that lies on a cone they may be any, but a rule does not cut a smooth patch of the `surface`, of nodes at
     `points`. A set as the root says what it means: any nodes may be clamped.
     """
+    looks = _LOOKS[what]
     if what == "root" and where.planes:
-        end = find_flanks(points, surface)
+        end, looks = find_flanks(points, surface), "outward, as flanks"
     straight = end is not None and end.straight
     if where.sets and (what == "root" or not straight):
         return
@@ -161,7 +161,6 @@ def check_end(what: str, where: Where, caught: Caught, end: End | None, points: 
     whole, within = expected.sum(), (caught.mask & expected).sum()
     if within == whole and not beside:
         return
-    looks = "outward, as flanks" if what == "root" and where.planes else _LOOKS[what]
     also = f"; it also caught {beside} side faces: narrow it" if beside else ": widen it"
     raise ImportRefused(
         f"{what}: {where.describe()} caught {within} of the {whole} faces that look {looks}{also}, or take what "

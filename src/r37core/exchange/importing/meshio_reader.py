@@ -61,7 +61,9 @@ def read_ansys(file: Path) -> RawMesh:
         raise ImportRefused(
             "Ansys archives need the extra package meshlane: pip install -e '.[ansys]' in the project's folder"
         ) from None
-    return _raw(quietly(meshlane.read, file))
+    # titles and names may be in Latin-1
+    text = io.StringIO(file.read_text(encoding="utf-8", errors="replace"))
+    return _raw(quietly(lambda archive: meshlane.read(archive, "ansysInp"), text))
 
 
 def quietly(read: Callable[[Any], Any], file: Path | io.StringIO) -> Any:
@@ -77,7 +79,8 @@ def quietly(read: Callable[[Any], Any], file: Path | io.StringIO) -> Any:
         if getattr(error, "errno", None) in NO_ROOM:
             raise
         lacking = f"something names {error}, which the file lacks; are there elements without their mid-nodes?"
-        cause = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
+        is_number = isinstance(error, KeyError) and not isinstance(error.args[0], str)
+        cause = lacking if is_number else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
         if "Incompatible cell data 'gmsh:physical'" in str(error):
             cause = "some elements are in no physical group: give all volumes one, or write with Mesh.SaveAll = 0"
         elif str(file).endswith(".msh"):
