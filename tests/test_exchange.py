@@ -317,7 +317,7 @@ def second_part(text):
         (lambda text: f"*ASSEMBLY\n*INSTANCE, NAME=A, PART=P\n1., 0.\n{text}", "instance A: how it is placed cannot be read"),
         (lambda text: f"*INSTANCE, NAME=A, PART=P\n*INSTANCE, NAME=B, PART=P\n{text}", r"several instances \(A, B\)"),
         (second_part, r"2 parts that share no node .* nodes lie on others: merge them"),
-        (lambda text: text.replace("NSET=ROOT", "NSET=HUB"), r"root: found no set 'root'; the file has: .*HUB"),
+        (lambda text: text.replace("NSET=ROOT", "NSET=HUB"), r"root: found no set 'root'; (.|\n)*file: .*HUB"),
         (lambda text: text.replace("*ELEMENT", "99999, 0.2, 0., 0.\n*ELEMENT"), r"1 of \d+ nodes belong to no .*\(99999\)"),
         (lambda text: text.replace("C3D20", "C3D27"), "elements of type C3D27; allowed: C3D10"),
         (lambda text: text.replace("C3D20", "S8R"), "no solid elements"),
@@ -440,7 +440,7 @@ def test_units_are_those_of_si_and_every_suffix_has_a_reader():
     assert pytest.approx(LENGTH_UNITS, rel=1e-15) == metric | {"in": constants.inch, "ft": constants.foot}
     assert pytest.approx(MASS_UNITS, rel=1e-15) == {"kg": 1.0, "g": constants.gram, "t": constants.metric_ton}
     assert pytest.approx(STIFFNESS_UNITS, rel=1e-15) == {"N/m": 1.0, "N/mm": 1.0 / constants.milli}
-    assert tuple(_READERS) == SUFFIXES
+    assert _READERS.keys() == set(SUFFIXES)
 
 
 def test_an_included_file_is_one_of_the_mesh(tmp_path):
@@ -450,7 +450,7 @@ def test_an_included_file_is_one_of_the_mesh(tmp_path):
         mesh_files("mesh.inp", tmp_path)
     (tmp_path / "parts/more.inp").write_text("*NSET, NSET=EXTRA\n1, 2\n")
     assert [file.name for file in mesh_files("mesh.inp", tmp_path)] == ["mesh.inp", "more.inp"]
-    with pytest.raises(ImportRefused, match=r"found no set 'MISSING'; the file has: .*EXTRA"):
+    with pytest.raises(ImportRefused, match=r"found no set 'MISSING'; (.|\n)*file: .*EXTRA"):
         import_mesh(source("mesh.inp", root=Where(("MISSING",))), tmp_path)
 
 

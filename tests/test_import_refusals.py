@@ -187,7 +187,7 @@ def test_nodes_that_the_deck_clamps_are_a_set(deck, change):
 @pytest.mark.parametrize("row", ["root, 1, 2", "root, 1, 3, 0.1", "nowhere, 1, 3", "*BOUNDARY, TYPE=VELOCITY\nroot, 1, 3"])
 def test_nodes_that_move_are_not_clamped(deck, row):
     change = boundary(lambda root: [row])
-    with pytest.raises(ImportRefused, match=r"found no set 'boundary'; the file has: ALL_NODES \(174 nodes\), BLADE"):
+    with pytest.raises(ImportRefused, match=r"found no set 'boundary'; (.|\n)*file: ALL_NODES \(174 nodes\), BLADE"):
         read(deck(change), root="boundary")
 
 
@@ -438,7 +438,7 @@ def test_sets_that_a_root_is_without(deck):
     ):
         attempt(folder, entry | {"root": {"x_at_most_m": 0.2, "without": ["right"]}})
     for rule in ({"without": ["RIGHT"]}, {"sets": [], "without": ["RIGHT"]}):
-        with pytest.raises(ValidationError, match="a rule without limits; allowed: .*, planes_m or sets"):
+        with pytest.raises(ValidationError, match=r"a rule without limits; allowed: .*, planes_m or sets"):
             MeshEntry.model_validate(entry | {"root": rule})
 
 

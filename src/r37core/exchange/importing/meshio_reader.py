@@ -79,8 +79,7 @@ def quietly(read: Callable[[Any], Any], file: Path | io.StringIO) -> Any:
         if getattr(error, "errno", None) in NO_ROOM:
             raise
         lacking = f"something names {error}, which the file lacks; are there elements without their mid-nodes?"
-        is_number = isinstance(error, KeyError) and not isinstance(error.args[0], str)
-        cause = lacking if is_number else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
+        cause = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
         if "Incompatible cell data 'gmsh:physical'" in str(error):
             cause = "some elements are in no physical group: give all volumes one, or write with Mesh.SaveAll = 0"
         elif str(file).endswith(".msh"):

@@ -35,21 +35,21 @@ class Where:
     """
 
     sets: Annotated[tuple[str, ...], Key("sets of the file")] = ()
-    without: Annotated[tuple[str, ...], Key("sets whose nodes are left out")] = ()
+    without: Annotated[tuple[str, ...], Key("sets left out")] = ()
     limits: tuple[tuple[str, str, float], ...] = ()
     cone_zr: Annotated[
         tuple[tuple[float, float], tuple[float, float]] | None,
         Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
     ] = None
-    planes: Annotated[tuple[tuple[float, float, float], ...], Key("planes, each by its point nearest to the origin", "_m")] = ()
+    planes: Annotated[tuple[tuple[float, float, float], ...], Key("planes, each by its point nearest the origin", "_m")] = ()
     tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", ge=1e-9, le=0.1)] = 1e-4
 
     def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
         """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
-        in_sets, left_out = (
+        named, left_out = (
             np.any([_edge_nodes(what, name, mesh) for name in names], axis=0) for names in (self.sets, self.without)
         )
-        return self.within(mesh.points) & (in_sets | (not self.sets)) & ~left_out
+        return self.within(mesh.points) & (named | (not self.sets)) & ~left_out
 
     def within(self, points: np.ndarray) -> np.ndarray:
         """Mask over `points` (m), shape (n, 3), that keep limits, cone and planes."""
