@@ -13,7 +13,7 @@ from r37core.fem.surface import Faces, outer_faces
 from .ends import End, caught_by, check_end, find_end, find_flanks, find_platform
 from .raw_mesh import RawMesh
 from .source import MeshSource
-from .tip import check_sense, find_tip_lines, is_flat, off_revolution
+from .tip import check_sense, find_tip_lines, off_revolution
 
 _FLAT = 0.1  # of how far a tip is from a surface of revolution: a plane catches it that much better
 _SAME_AXES = 0.2  # difference of unit vectors: radial may point anywhere within the blade
@@ -60,7 +60,8 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
 def _tolerance_of_flat_tip(tip: np.ndarray, tolerance: float) -> dict[str, str]:
     """Keys that let a flat tip pass: nodes `tip` (m), shape (n, 3), farther than `tolerance` (m) from a cone."""
     off = float(np.abs(off_revolution(tip)).max())
-    if off <= tolerance or not is_flat(tip, _FLAT * off):
+    _, _, axes = np.linalg.svd(tip - tip.mean(axis=0), full_matrices=False)
+    if off <= tolerance or np.ptp(tip @ axes[-1]) > 2.0 * _FLAT * off:
         return {}
     needed = np.ceil(1e5 * 1.05 * off) / 1e5
     remark = f"# the tip is flat, up to {1e3 * off:.3g} mm off the casing's shape; better turn it to that"
@@ -122,11 +123,8 @@ def find_axes(mesh: RawMesh, like: Orientation) -> Orientation | None:
     if best is like:
         return None
     x, y, z = best.rotor_axis
-    turned = [
-        replace(best, rotor_axis=axis, rotation=rotation)
-        for axis in (best.rotor_axis, (0.0 - x, 0.0 - y, 0.0 - z))
-        for rotation in ("positive", "negative")
-    ]
+    axes = best.rotor_axis, (0.0 - x, 0.0 - y, 0.0 - z)
+    turned = [replace(best, rotor_axis=axis, rotation=sense) for axis in axes for sense in ("positive", "negative")]
     fitting = [orientation for orientation in turned if _makes_sense(mesh, orientation)]
     return replace(fitting[0], length_unit=like.length_unit) if len(fitting) == 1 else None
 
