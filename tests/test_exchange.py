@@ -36,7 +36,7 @@ from r37core.rom.naming import ideal_shapes
 
 
 def source(file, **changes):
-    return replace(MeshSource(str(file), OURS, Where("root"), Where("tip")), **changes)
+    return replace(MeshSource(str(file), OURS, Where(("root",)), Where(("tip",))), **changes)
 
 
 def difference(first, second):
@@ -60,7 +60,7 @@ def files(blade, steel, tmp_path_factory):
 def test_our_own_mesh_comes_back(files, steel, name):
     mesh, matrices, folder = files
     sets = ("nastran:ref=2", "nastran:ref=3") if name == "mesh.bdf" else ("root", "tip")
-    again, quality = import_mesh(source(name, root=Where(sets[0]), tip=Where(sets[1])), folder)
+    again, quality = import_mesh(source(name, root=Where((sets[0],)), tip=Where((sets[1],))), folder)
     # a field of Nastran has sixteen characters: eleven digits
     assert difference(assemble(again, steel), matrices) < (1e-7 if name == "mesh.bdf" else 1e-12)
     assert quality.min() == pytest.approx(mesh_quality(mesh).min(), rel=1e-6)
@@ -88,7 +88,7 @@ def test_every_element_in_every_format(element, tmp_path):
         if suffix != "inp":
             write_mesh(mesh, tmp_path / f"mesh.{suffix}")
         sets = ("nastran:ref=2", "nastran:ref=3") if suffix == "bdf" else ("root", "tip")
-        again, _ = import_mesh(source(f"mesh.{suffix}", root=Where(sets[0]), tip=Where(sets[1])), tmp_path)
+        again, _ = import_mesh(source(f"mesh.{suffix}", root=Where((sets[0],)), tip=Where((sets[1],))), tmp_path)
         assert difference(assemble(again, TITANIUM), expected) < (1e-8 if suffix == "bdf" else 1e-12), suffix
 
 
@@ -269,18 +269,18 @@ def test_decks_as_other_programs_write_them(tmp_path):
         more = "*ASSEMBLY\n*NODE\n1, 9., 9., 9.\n*END ASSEMBLY\n*Nset, nset=Clamped\nROOT,"
         return text.replace("*MATERIAL", f"{more}\n*MATERIAL")
 
-    mesh, _ = import_mesh(source(deck(tmp_path, rewritten), root=Where("CLAMPED")))
+    mesh, _ = import_mesh(source(deck(tmp_path, rewritten), root=Where(("CLAMPED",))))
     assert difference(assemble(mesh, TITANIUM), expected) < 1e-12
     tip = plate()
     on_tip = np.isin(tip.blocks["hexahedron20"], tip.node_set("tip"))
     # x grows along local xi: corners 2 3 7 6, face S4 of Abaqus
     members = ", ".join(map(str, np.flatnonzero(on_tip.sum(axis=1) == 8) + 1))
     faces = f"*ELSET, ELSET=LAST\n{members}\n*SURFACE, NAME=CROWN\nLAST, S4\n*MATERIAL"
-    mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", faces)), tip=Where("crown")))
+    mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", faces)), tip=Where(("crown",))))
     np.testing.assert_array_equal(mesh.node_set("tip"), tip.node_set("tip"))
     skin = [", ".join(map(str, [9000 + i, *(face + 1)])) for i, face in enumerate(tip_faces(tip))]
     shells = "*ELEMENT, TYPE=S8R, ELSET=SKIN\n" + "\n".join(skin) + "\n*NSET, NSET=CAP, ELSET=skin\n*MATERIAL"
-    mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", shells)), tip=Where("cap")))
+    mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", shells)), tip=Where(("cap",))))
     np.testing.assert_array_equal(mesh.node_set("tip"), tip.node_set("tip"))
 
 
@@ -317,7 +317,7 @@ def second_part(text):
         (lambda text: f"*ASSEMBLY\n*INSTANCE, NAME=A, PART=P\n1., 0.\n{text}", "instance A: how it is placed cannot be read"),
         (lambda text: f"*INSTANCE, NAME=A, PART=P\n*INSTANCE, NAME=B, PART=P\n{text}", r"several instances \(A, B\)"),
         (second_part, r"2 parts that share no node .* nodes lie on others: merge them"),
-        (lambda text: text.replace("NSET=ROOT", "NSET=HUB"), r"root: found no set 'root'; the file has: .*HUB"),
+        (lambda text: text.replace("NSET=ROOT", "NSET=HUB"), r"root: found no set 'root'; (.|\n)*file: .*HUB"),
         (lambda text: text.replace("*ELEMENT", "99999, 0.2, 0., 0.\n*ELEMENT"), r"1 of \d+ nodes belong to no .*\(99999\)"),
         (lambda text: text.replace("C3D20", "C3D27"), "elements of type C3D27; allowed: C3D10"),
         (lambda text: text.replace("C3D20", "S8R"), "no solid elements"),
@@ -401,7 +401,7 @@ def test_all_elements_of_the_other_winding_are_turned(tmp_path, slope):
         (turned_by(length_unit="mm"), "length_unit", r"length_unit mm or rotor_axis does not fit .* fitting units: m \(0\.06"),
         (turned_by(axis_point=(-1e6, 0, 0.0)), "axis_point", r"would reach to 1\.\d+e\+06 m from the .* \(allowed: 10 m"),
         (turned_by(axis_point=(0.23, 0, 0.0)), "radial", "passes through the blade|from `radial`"),
-        ({"tip": Where("root")}, "root", r"a radius of 0\.2 m and a tip at 0\.2 m"),
+        ({"tip": Where(("root",))}, "root", r"a radius of 0\.2 m and a tip at 0\.2 m"),
         ({"tip": Where(limits=(("r", "at_least", 0.3),))}, "tip", "no outer face .* the rule 'r at least 0.3 m, to 0.0001 m'"),
         ({"tip": Where(cone_zr=((0.0, 0.27), (0.03, 0.25)))}, "tip", r"the cone through \(z, r\) = \(0, 0.27\) and \(0.03, 0"),
         ({"tip": Where(limits=(("r", "at_least", 0.2495),)), "end_check": False}, "tip", "no surface of revolution about"),
@@ -440,7 +440,7 @@ def test_units_are_those_of_si_and_every_suffix_has_a_reader():
     assert pytest.approx(LENGTH_UNITS, rel=1e-15) == metric | {"in": constants.inch, "ft": constants.foot}
     assert pytest.approx(MASS_UNITS, rel=1e-15) == {"kg": 1.0, "g": constants.gram, "t": constants.metric_ton}
     assert pytest.approx(STIFFNESS_UNITS, rel=1e-15) == {"N/m": 1.0, "N/mm": 1.0 / constants.milli}
-    assert tuple(_READERS) == SUFFIXES
+    assert _READERS.keys() == set(SUFFIXES)
 
 
 def test_an_included_file_is_one_of_the_mesh(tmp_path):
@@ -450,8 +450,8 @@ def test_an_included_file_is_one_of_the_mesh(tmp_path):
         mesh_files("mesh.inp", tmp_path)
     (tmp_path / "parts/more.inp").write_text("*NSET, NSET=EXTRA\n1, 2\n")
     assert [file.name for file in mesh_files("mesh.inp", tmp_path)] == ["mesh.inp", "more.inp"]
-    with pytest.raises(ImportRefused, match=r"found no set 'MISSING'; the file has: .*EXTRA"):
-        import_mesh(source("mesh.inp", root=Where("MISSING")), tmp_path)
+    with pytest.raises(ImportRefused, match=r"found no set 'MISSING'; (.|\n)*file: .*EXTRA"):
+        import_mesh(source("mesh.inp", root=Where(("MISSING",))), tmp_path)
 
 
 def test_files_that_cannot_be_read(tmp_path):

@@ -166,7 +166,7 @@ ANGLES = r"leading edge at [-+]\d+\.\d degrees and its trailing edge at [-+]\d+\
 
 
 def source(file, orientation=OURS, **changes):
-    return MeshSource(str(file), orientation, Where("root"), Where("tip"), **changes)
+    return MeshSource(str(file), orientation, Where(("root",)), Where(("tip",)), **changes)
 
 
 BLADES = ["Ref", "CS100", *(pytest.param(name, marks=pytest.mark.slow) for name in ("L50", "L100", "S50", "S100", "CS50"))]

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import yaml
+from box_mesh import write_deck
 from defaults import Where
 from workflow_runs import overlay
 
@@ -65,7 +66,7 @@ def test_a_mesh_has_what_it_leaves_out_from_its_base(settings_with, config_copy)
     blades = settings_with(MESH, {"Other": other}, blades=("Fan", "Other")).blades
     own, base = blades["Other"], blades["Fan"]
     definition = replace(
-        base.definition, file="meshes/other.inp", root=Where("foot", tolerance=0.0), digest=own.definition.digest
+        base.definition, file="meshes/other.inp", root=Where(("foot",), tolerance=0.0), digest=own.definition.digest
     )
     assert own.definition == definition and own.definition.digest != base.definition.digest
     assert own.material == replace(base.material, density=4500.0)
@@ -132,7 +133,7 @@ def test_an_imported_blade_has_no_table_to_vary(settings_with, entry, changes, m
 def test_a_mesh(settings_with, config_copy):
     settings = settings_with(MESH | {"pressure_side": "backward", "axis_point": [1, 2, 3]})
     source = settings.blades["Fan"].definition
-    assert (source.file, source.root) == ("meshes/fan.inp", Where("hub", tolerance=0.0))
+    assert (source.file, source.root) == ("meshes/fan.inp", Where(("hub",), tolerance=0.0))
     assert source.tip == Where(limits=(("r", "at_least", 0.25),))
     assert not source.pressure_side_forward
     np.testing.assert_allclose(source.orientation.points_to_blade(np.array([[1.0, 2.0, 1003.0]])), [[1.0, 0.0, 0.0]])
@@ -141,6 +142,18 @@ def test_a_mesh(settings_with, config_copy):
     before = structure_hash(settings, "Fan")
     (config_copy / "meshes/more.inc").write_text("1, 0, 0, 1\n")
     assert structure_hash(read_settings(config_copy), "Fan") != before
+
+
+def test_what_a_mesh_asks_is_answered_as_the_configuration_is_read(settings_with, config_copy):
+    """As in a dry run: no job is needed."""
+    settings_with(MESH)
+    write_deck(config_copy / "meshes/asked.inp")
+    entry = MESH | {"mesh": "meshes/asked.inp", "length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0]}
+    overlay(config_copy, "blades.yaml", yaml.safe_dump({"Fan": entry | {"root": "?", "sense_check": False}}))
+    with pytest.raises(
+        ConfigError, match=r"Fan\.root: meshes/asked\.inp: root: found no set '\?'(.|\n)*\n  root: \{ cone_zr_m"
+    ):
+        read_settings(config_copy)
 
 
 def test_a_mesh_with_another_material(settings_with):

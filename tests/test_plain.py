@@ -33,7 +33,7 @@ JOBS_GET = [
     replace(EVERYWHERE, maximum_z=0.1),
     RefinementChoice((Window("1B", 12, 0.0, 0.1, 5.0),), 0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
     SpeedPlan((900.0, 1000.0), (RefinedRange(900.0, 1.0, 50, 100),)),
-    defaults.MeshSource("blade.inp", ORIENTATION, defaults.Where("ROOT"), CONE),
+    defaults.MeshSource("blade.inp", ORIENTATION, defaults.Where(("ROOT",)), CONE),
     defaults.MatricesSource("folder", ORIENTATION),
 ]
 

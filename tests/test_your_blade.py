@@ -164,7 +164,7 @@ def test_matrices_run_to_the_same_response(root, drawn, tmp_path):
 @pytest.mark.parametrize(
     ("key", "value", "message"),
     [
-        ("root", "clamp", "root: found no set 'clamp'; the file has: blade ("),
+        ("root", "clamp", "root: found no set 'clamp'; with length_unit"),
         ("rotation", "negative", "found the tip's leading edge at "),
     ],
 )

@@ -7,6 +7,7 @@ from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
+from r37core.exchange.refusal import ASKED
 
 from .blade_sections import (
     CONTACT_IN_WORDS,
@@ -36,8 +37,10 @@ class SurfaceRule(Section):
     z_at_most_m: Length = left_out("Upper bound of the axial coordinate")
 
     def _check(self) -> None:
-        if not self._limits() and self.cone_zr_m is None:
-            raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m")
+        if not (self._limits() or self.cone_zr_m or self.planes_m or self.sets):
+            raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m, planes_m or sets")
+        if [0.0, 0.0, 0.0] in self.planes_m:
+            raise refused(("planes_m",), "a plane through the origin", "planes that do not contain it")
         if self.cone_zr_m is not None and self.cone_zr_m[0] == self.cone_zr_m[1]:
             raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
         if self.cone_zr_m is not None and min(radius for _, radius in self.cone_zr_m) < 0.0:
@@ -124,7 +127,13 @@ class MeshEntry(Oriented):
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
         ends, digest = {"root": _where(self.root), "tip": _where(self.tip)}, digest_of(mesh_files(self.mesh, root))
-        return si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, **ends)
+        source = si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, **ends)
+        if ASKED in (self.root, self.tip):
+            # answered before any job, in a dry run too; what reads meshes takes time to load
+            from r37core.exchange.importing.import_mesh import import_mesh
+
+            import_mesh(source, root)
+        return source
 
 
 @declared_by(MatricesSource)
@@ -149,5 +158,4 @@ class MatricesEntry(Oriented):
 def _where(rule: Any) -> Where:
     if isinstance(rule, SurfaceRule):
         return rule.where()
-    first, *further = [rule] if isinstance(rule, str) else rule
-    return Where(first, tuple(further), tolerance=0.0)
+    return Where((rule,) if isinstance(rule, str) else tuple(rule), tolerance=0.0)

@@ -11,9 +11,8 @@ from pydantic import Discriminator, Field, Tag
 from r37core.base.io import TextFileError
 from r37core.blade.definition import SectionsDefinition
 from r37core.exchange.orientation import Orientation
-from r37core.exchange.refusal import ImportRefused
+from r37core.exchange.refusal import ASKED, ImportRefused
 from r37core.exchange.sections.placed import (
-    ASKED,
     OWN,
     Meridians,
     check_curves,

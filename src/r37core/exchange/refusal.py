@@ -6,6 +6,9 @@ from contextlib import contextmanager
 
 from r37core.base.io import CarriedError
 
+ASKED = "?"
+"""Value of a key whose refusal says what fits."""
+
 
 class ImportRefused(CarriedError):
     """A mesh or a set of matrices that cannot be used; the message names the file, what was found and what helps.
@@ -59,11 +62,7 @@ class Refusals:
     def tell(self) -> None:
         """Raise what was kept as one ImportRefused, which blames the first one's key."""
         if self._kept:
-            reasons = list(dict.fromkeys(error.reason for error in self._kept))
-            beginnings, ends = zip(*(reason.partition("; ")[::2] for reason in reasons), strict=True)
-            if len(reasons) > 1 and len(set(ends)) == 1:
-                # what helps all of them, such as the sets of the file, is said once
-                reasons = [*beginnings[:-1], f"{beginnings[-1]}; {ends[0]}"]
+            reasons = dict.fromkeys(error.reason for error in self._kept)
             raise ImportRefused(f"{self._file}: " + "; and ".join(reasons), self._kept[0].key)
 
 

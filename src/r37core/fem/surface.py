@@ -64,15 +64,6 @@ def nodes_of(faces: list[Faces]) -> np.ndarray:
     return np.unique(np.concatenate([np.empty(0, dtype=np.int64), *(part.nodes.ravel() for part in faces)]))
 
 
-def patches(faces: list[Faces]) -> int:
-    """Number of patches of faces that share no node."""
-    edges = np.concatenate([part.edges() for part in faces])
-    nodes, local = np.unique(edges[:, [0, 2]], return_inverse=True)
-    starts, ends = local.reshape(-1, 2).T
-    graph = sp.coo_array((np.ones(len(starts)), (starts, ends)), shape=(len(nodes),) * 2)
-    return int(connected_components(graph, directed=False)[0])
-
-
 def loops(faces: list[Faces]) -> list[np.ndarray]:
     """Closed lines round a patch: node numbers in order, mid-nodes among them, counter-clockwise seen from outside.
 

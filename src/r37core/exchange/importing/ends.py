@@ -18,6 +18,9 @@ _BELOW = 0.2  # of the blade's height: how far a platform is below the tip, a co
 _ROUNDED = 7  # decimals of the rule's numbers (m)
 _TOLERANCES = (1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, np.inf)  # m
 _LOOKS = {"root": "towards the axis", "tip": "towards the casing"}
+_PLANAR = np.radians(0.5)  # between the normals of faces of one plane
+_SLANTED = 0.25  # of a unit normal, outward and to a side: the faces of a root that a disc holds
+_UNEVEN = 0.1  # of what flanks look to a side, summed: to one side more than to the other
 
 
 @dataclass(frozen=True)
@@ -31,7 +34,7 @@ class Caught:
 
 @dataclass(frozen=True)
 class End(Caught):
-    """An end of the blade, the `rule` of a cone that catches it, and whether it lies on that cone, `straight`.
+    """An end of the blade, the `rule` of a cone or planes that catches it, and whether it lies on them, `straight`.
 
     One that does not may be curved, flat as the bottom of a foot, or run into a fillet.
     """
@@ -46,16 +49,13 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     It is the smooth patch of faces that look along the radius, the outermost or innermost large one. None where no cone
     catches all of it and nothing else.
     """
-    patch, sizes, radius = _radial_patches(what, points, surface)
-    numbers = np.unique(patch[patch >= 0])
-    if not len(numbers):
+    patch, areas, heights, radius = _radial_patches(what, points, surface)
+    if not areas.any():
         return None
-    areas = np.array([sizes[patch == number].sum() for number in numbers])
-    heights = np.array([np.average(radius[patch == number], weights=sizes[patch == number]) for number in numbers])
     # the top of a platform may be many times larger than the tip
     near = (heights >= radius.max() - _BELOW * np.ptp(radius)) | (what == "root")
     large = areas >= _LARGE * areas[near if near.any() else slice(None)].max()
-    mask = patch == numbers[large][np.argmax(heights[large] if what == "tip" else -heights[large])]
+    mask = patch == np.argmax(np.where(large, heights if what == "tip" else -heights, -np.inf))
     faces = chosen(surface, mask)
     nodes = nodes_of(faces)
     rule = _cone(points[nodes])
@@ -64,27 +64,62 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     return End(nodes, faces, mask, rule, straight) if is_exact else None
 
 
+def find_flanks(points: np.ndarray, surface: list[Faces]) -> End | None:
+    """Flanks by which a disc holds the root: planes that look outward and to both sides alike, the root behind them.
+
+    `points` (m), shape (nodes, 3). None where there are none, or where no rule catches all of them and nothing else.
+    """
+    vectors, looks, radius = _face_looks(points, surface)
+    sizes, distance = np.linalg.norm(vectors, axis=1), np.hypot(*points[:, :2].T)
+    slanted = (np.minimum(looks[:, 0], np.abs(looks[:, 1])) >= _SLANTED) & (radius < 0.5 * (radius.min() + radius.max()))
+    patch = np.where(slanted, smooth_patches(surface, vectors, _PLANAR), -1)
+    areas = np.bincount(patch + 1, sizes)[1:]
+    mask, planes = np.zeros(len(patch), dtype=bool), []
+    for number in np.flatnonzero(areas >= _LARGE * areas.max(initial=1e-300)):
+        nodes, normal = nodes_of(chosen(surface, patch == number)), vectors[patch == number].sum(axis=0)
+        heights = points @ (normal := normal / np.linalg.norm(normal))
+        # a fillet has the platform below and before it
+        if heights[distance < distance[nodes].min()].max(initial=-np.inf) < heights[nodes].mean() + _TOLERANCES[0]:
+            mask |= patch == number
+            planes.append(heights[nodes].mean() * normal)
+    aside, feet = (sizes * looks[:, 1])[mask], tuple(map(tuple, (np.round(planes, _ROUNDED) + 0.0).tolist()))
+    is_even = abs(aside.sum()) <= _UNEVEN * np.abs(aside).sum()
+    for rule in (Where(planes=feet, tolerance=tolerance) for tolerance in _TOLERANCES[:-1]):
+        if is_even and np.array_equal(mask_within(surface, rule.within(points)), mask):
+            return End(nodes_of(chosen(surface, mask)), chosen(surface, mask), mask, rule, True)
+    return None
+
+
 def find_platform(points: np.ndarray, surface: list[Faces]) -> Where | None:
     """The cone of a modelled root's top, the outermost large patch that looks outward far below the tip; None without one."""
-    patch, sizes, radius = _radial_patches("tip", points, surface)
-    areas = np.bincount(patch[patch >= 0], sizes[patch >= 0])
-    heights = np.bincount(patch[patch >= 0], (sizes * radius)[patch >= 0]) / np.maximum(areas, 1e-300)
-    below = (areas >= _LARGE * areas.max(initial=0.0)) & (heights < radius.max() - _BELOW * np.ptp(radius))
+    patch, areas, heights, radius = _radial_patches("tip", points, surface)
+    below = (areas >= _LARGE * areas.max(initial=1e-300)) & (heights < radius.max() - _BELOW * np.ptp(radius))
     if not below.any():
         return None
     return _cone(points[nodes_of(chosen(surface, patch == np.argmax(heights * below)))])
 
 
-def _radial_patches(what: str, points: np.ndarray, surface: list[Faces]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Smooth patch of each outer face that looks as the end `what` does, else -1; areas (m2) and radii (m) of the faces."""
-    vectors = area_vectors(surface, points)
-    sizes = np.linalg.norm(vectors, axis=1)
-    centres = np.concatenate([points[part.nodes[:, : part.corners]].mean(axis=1) for part in surface])
-    radius = np.hypot(centres[:, 0], centres[:, 1])
-    outward = np.sum(vectors[:, :2] * centres[:, :2], axis=1) / np.maximum(radius * sizes, 1e-300)
-    patch = smooth_patches(surface, vectors, _CREASE)
+def _radial_patches(what: str, points: np.ndarray, surface: list[Faces]) -> tuple[np.ndarray, ...]:
+    """Smooth patch of each outer face that looks as the end `what` does, else -1.
+
+    Areas (m2) and mean radii (m) of the patches, 0 where none of their faces does; radii (m) of the faces.
+    """
+    vectors, looks, radius = _face_looks(points, surface)
     # a fillet is smooth all the way to the blade's sides
-    return np.where((outward if what == "tip" else -outward) >= _RADIAL, patch, -1), sizes, radius
+    looking = looks[:, 0] * (1.0 if what == "tip" else -1.0) >= _RADIAL
+    patch, sizes = np.where(looking, smooth_patches(surface, vectors, _CREASE), -1), np.linalg.norm(vectors, axis=1)
+    areas, moments = (np.bincount(patch + 1, weights)[1:] for weights in (sizes, sizes * radius))
+    return patch, areas, moments / np.maximum(areas, 1e-300), radius
+
+
+def _face_looks(points: np.ndarray, surface: list[Faces]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Outward normals of the faces times their areas (m2), their unit normals' parts outward and round the axis, radii (m)."""
+    vectors = area_vectors(surface, points)
+    centres = np.concatenate([points[part.nodes[:, : part.corners]].mean(axis=1) for part in surface])
+    (x, y), (along_x, along_y) = centres[:, :2].T, vectors[:, :2].T
+    radius = np.hypot(x, y)
+    looks = np.stack([along_x * x + along_y * y, along_y * x - along_x * y], axis=1)
+    return vectors, looks / np.maximum(radius * np.linalg.norm(vectors, axis=1), 1e-300)[:, None], radius
 
 
 def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> Caught:
@@ -95,10 +130,10 @@ def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> C
     members = where.nodes(what, mesh)
     mask = mask_within(surface, members)
     faces = chosen(surface, mask)
-    if what == "root" and where.set_name is not None and members.any():
+    if what == "root" and where.sets and members.any():
         return Caught(np.flatnonzero(members), faces, mask)
     if not mask.any():
-        remark = "" if where.set_name is None else f", which has {members.sum()} nodes"
+        remark = f", which has {members.sum()} nodes" if where.sets else ""
         raise ImportRefused(
             f"{what}: no outer face has all its nodes within {where.describe()}{remark}; give another set or rule, or a wider "
             f"tolerance_m"
@@ -112,20 +147,23 @@ def check_end(what: str, where: Where, caught: Caught, end: End | None, points: 
     Without an end that lies on a cone they may be any, but a rule does not cut a smooth patch of the `surface`, of nodes at
     `points`. A set as the root says what it means: any nodes may be clamped.
     """
+    looks = _LOOKS[what]
+    if what == "root" and where.planes:
+        end, looks = find_flanks(points, surface), "outward, as flanks"
     straight = end is not None and end.straight
-    if where.set_name is not None and (what == "root" or not straight):
+    if where.sets and (what == "root" or not straight):
         return
     if end is not None and straight:
         expected, beside = end.mask, (caught.mask & ~end.mask).sum()
     else:
-        patch, _, _ = _radial_patches(what, points, surface)
+        patch, *_ = _radial_patches(what, points, surface)
         expected, beside = np.isin(patch, patch[caught.mask & (patch >= 0)]), 0
     whole, within = expected.sum(), (caught.mask & expected).sum()
     if within == whole and not beside:
         return
     also = f"; it also caught {beside} side faces: narrow it" if beside else ": widen it"
     raise ImportRefused(
-        f"{what}: {where.describe()} caught {within} of the {whole} faces that look {_LOOKS[what]}{also}, or take what "
+        f"{what}: {where.describe()} caught {within} of the {whole} faces that look {looks}{also}, or take what "
         "was caught with end_check: false"
     )
 

@@ -3,18 +3,17 @@
 import warnings
 from contextlib import suppress
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 
 from r37core.exchange.orientation import Orientation, fitting_units
-from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.exchange.refusal import ASKED, ImportRefused, MeshWarning
 from r37core.fem.surface import Faces, outer_faces
 
-from .ends import End, caught_by, check_end, find_end, find_platform
+from .ends import End, caught_by, check_end, find_end, find_flanks, find_platform
 from .raw_mesh import RawMesh
 from .source import MeshSource
-from .tip import check_sense, find_tip_lines, is_flat, off_revolution
+from .tip import check_sense, find_tip_lines, off_revolution
 
 _FLAT = 0.1  # of how far a tip is from a surface of revolution: a plane catches it that much better
 _SAME_AXES = 0.2  # difference of unit vectors: radial may point anywhere within the blade
@@ -44,22 +43,25 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
     surface = outer_faces(mesh.blocks)
     for what in ("root", "tip"):
         end = find_end(what, mesh.points, surface)
-        if end is not None and not _catches(what, source, mesh, surface, end):
-            entry[what] = end.rule.as_yaml()
-        if end is None and getattr(source, what).set_name == "?":
+        flanks = find_flanks(mesh.points, surface) if what == "root" else None
+        rules = [part.rule.as_yaml() for part in (flanks, end) if part is not None]
+        if rules and not _catches(what, source, mesh, surface, end):
+            entry[what] = " # or its bottom: ".join(rules)
+        if not rules and getattr(source, what).sets == (ASKED,):
             entry[f"# {what}"] = "no cone catches one whole face alone; give sets of the file, or limits such as r_at_most_m"
         if what == "tip" and end is not None:
             entry |= _tolerance_of_flat_tip(mesh.points[end.nodes], source.revolution_tolerance)
     platform = None if source.hub_zr else find_platform(mesh.points, surface)
     if platform is not None:
-        entry["hub_zr_m"] = platform.meridian_as_yaml()
+        entry["hub_zr_m"] = platform.points_as_yaml()
     return entry
 
 
 def _tolerance_of_flat_tip(tip: np.ndarray, tolerance: float) -> dict[str, str]:
     """Keys that let a flat tip pass: nodes `tip` (m), shape (n, 3), farther than `tolerance` (m) from a cone."""
     off = float(np.abs(off_revolution(tip)).max())
-    if off <= tolerance or not is_flat(tip, _FLAT * off):
+    _, _, axes = np.linalg.svd(tip - tip.mean(axis=0), full_matrices=False)
+    if off <= tolerance or np.ptp(tip @ axes[-1]) > 2.0 * _FLAT * off:
         return {}
     needed = np.ceil(1e5 * 1.05 * off) / 1e5
     remark = f"# the tip is flat, up to {1e3 * off:.3g} mm off the casing's shape; better turn it to that"
@@ -87,13 +89,13 @@ def _direction(vector: tuple[float, float, float]) -> str:
     return f"[{', '.join(f'{x:g}' for x in vector)}]"
 
 
-def _catches(what: str, source: MeshSource, mesh: RawMesh, surface: list[Faces], end: End) -> bool:
+def _catches(what: str, source: MeshSource, mesh: RawMesh, surface: list[Faces], end: End | None) -> bool:
     """True if the set or rule of the entry catches this end, or may well be meant otherwise."""
     with suppress(ImportRefused):
+        caught = caught_by(getattr(source, what), what, mesh, surface)
         if what == "root":
-            check_end(what, source.root, caught_by(source.root, what, mesh, surface), end, mesh.points, surface)
-            return True
-        return np.array_equal(caught_by(source.tip, what, mesh, surface).mask, end.mask)
+            check_end(what, source.root, caught, end, mesh.points, surface)
+        return what == "root" or end is None or np.array_equal(caught.mask, end.mask)
     return False
 
 
@@ -120,17 +122,11 @@ def find_axes(mesh: RawMesh, like: Orientation) -> Orientation | None:
     _, best = min(candidates, key=lambda candidate: candidate[0])
     if best is like:
         return None
-    fitting = [
-        turned
-        for sign, rotation in product((1.0, -1.0), ("positive", "negative"))
-        if _makes_sense(mesh, turned := _turned(best, sign, rotation))
-    ]
+    x, y, z = best.rotor_axis
+    axes = best.rotor_axis, (0.0 - x, 0.0 - y, 0.0 - z)
+    turned = [replace(best, rotor_axis=axis, rotation=sense) for axis in axes for sense in ("positive", "negative")]
+    fitting = [orientation for orientation in turned if _makes_sense(mesh, orientation)]
     return replace(fitting[0], length_unit=like.length_unit) if len(fitting) == 1 else None
-
-
-def _turned(orientation: Orientation, sign: float, rotation: str) -> Orientation:
-    x, y, z = (sign * part + 0.0 for part in orientation.rotor_axis)
-    return replace(orientation, rotor_axis=(x, y, z), rotation=rotation)
 
 
 def _makes_sense(mesh: RawMesh, orientation: Orientation) -> bool:

@@ -19,15 +19,8 @@ from .raw_mesh import RawMesh
 from .source import MeshSource, kind_of, mesh_files
 from .tip import TipLines, check_revolution, check_sense, find_tip_lines
 
-_READERS: dict[str, Callable[[Path], RawMesh]] = {
-    ".inp": read_abaqus,
-    ".msh": read_with_meshio,
-    ".vtu": read_with_meshio,
-    ".med": read_with_meshio,
-    ".bdf": read_nastran,
-    ".nas": read_nastran,
-    ".cdb": read_ansys,
-}
+_READERS: dict[str, Callable[[Path], RawMesh]] = dict.fromkeys((".msh", ".vtu", ".med"), read_with_meshio)
+_READERS |= {".inp": read_abaqus, ".bdf": read_nastran, ".nas": read_nastran, ".cdb": read_ansys}
 
 
 def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
@@ -36,8 +29,9 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     Raises ImportRefused, with the file's name and the reason, for a mesh that cannot be computed with.
     """
     with blamed("mesh"):
-        raw = _read(source.file, Path(folder))
+        file = mesh_files(source.file, Path(folder))[0]
     with blamed("mesh", source.file):
+        raw = _read(file)
         raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, source.minimum_scaled_jacobian)
     placed = None
     try:
@@ -54,7 +48,7 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
                 f"; with length_unit {source.orientation.length_unit} the blade reaches from {radius.min():.4g} to "
                 f"{radius.max():.4g} m from the axis"
             )
-        raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw)) from None
+        raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw) | _known_sets(source, raw)) from None
     raw = placed
     height = source.height(raw.points)
     if height is not None and (height[tip].min() <= 0.0 or height[root].min() > 0.01 * height[tip].max()):
@@ -73,24 +67,33 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
 
 
+_MOST_NAMES = 30
+
+
+def _known_sets(source: MeshSource, mesh: RawMesh) -> dict[str, str]:
+    """A remark with the sets of the file where the entry names one that it lacks, or asks."""
+    wanted = {name.upper() for where in (source.root, source.tip) for name in where.sets + where.without}
+    known = [f"{name} ({len(nodes)} nodes)" for name, nodes in sorted(mesh.sets.items()) if len(nodes)] or ["none"]
+    more = [f"and {len(known) - _MOST_NAMES} more"] if len(known) > _MOST_NAMES else []
+    is_known = wanted <= {name.upper() for name in mesh.sets}
+    return {} if is_known else {"# sets of the file": ", ".join(known[:_MOST_NAMES] + more)}
+
+
 def size_in_words(mesh: BladeMesh, source: MeshSource) -> str:
     """Length and width, radii of tip and root, and where the span begins, as text, to be compared with the real blade."""
     radius, size = np.hypot(mesh.points[:, 0], mesh.points[:, 1]), np.ptp(mesh.points, axis=0)
     leading, trailing = (radius[mesh.node_set(f"{name}_edge")].max() for name in ("leading", "trailing"))
     root = radius[mesh.node_set("root")].mean()
+    span = "span begins at hub_zr_m, stress regions with a minimum_span lie above"
+    if source.hub_zr is None:
+        platform = find_platform(mesh.points, outer_faces(mesh.blocks))
+        hint = f"; the root is modelled: at its platform with hub_zr_m: {platform.points_as_yaml()}" if platform else ""
+        span = f"span begins at the clamped faces{hint}"
     return (
         f"{size[0]:.4g} m long and {size[2]:.4g} m wide along the axis, "
         f"radius of the tip {leading:.4g} m at the leading and {trailing:.4g} m at the trailing edge, of the root {root:.4g} m"
-        f"; {_span_in_words(mesh, source)}"
+        f"; {span}"
     )
-
-
-def _span_in_words(mesh: BladeMesh, source: MeshSource) -> str:
-    if source.hub_zr is not None:
-        return "span begins at hub_zr_m, stress regions with a minimum_span lie above"
-    platform = find_platform(mesh.points, outer_faces(mesh.blocks))
-    hint = "" if platform is None else f"; the root is modelled: at its platform with hub_zr_m: {platform.meridian_as_yaml()}"
-    return f"span begins at the clamped faces{hint}"
 
 
 def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, TipLines]:
@@ -128,15 +131,14 @@ def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, Tip
     return caught["root"].nodes, caught["tip"].nodes, lines
 
 
-def _read(name: str, root: Path) -> RawMesh:
-    """The mesh of the file `name` in the folder `root`; ImportRefused for a file that is missing, unknown or unsuitable."""
-    file = mesh_files(name, root)[0]
+def _read(file: Path) -> RawMesh:
+    """The mesh of a file; ImportRefused for a file that is unknown or unsuitable."""
     try:
         return _READERS[kind_of(file)](file)
-    except ImportRefused as error:
-        raise ImportRefused(f"{name}: {error}") from None
+    except ImportRefused:
+        raise
     except Exception as error:
-        raise ImportRefused(f"{name}: cannot be read ({type(error).__name__}: {error})") from error
+        raise ImportRefused(f"cannot be read ({type(error).__name__}: {error}); write it again") from error
 
 
 _SECTIONS = 25

@@ -61,7 +61,9 @@ def read_ansys(file: Path) -> RawMesh:
         raise ImportRefused(
             "Ansys archives need the extra package meshlane: pip install -e '.[ansys]' in the project's folder"
         ) from None
-    return _raw(quietly(meshlane.read, file))
+    # titles and names may be in Latin-1
+    text = io.StringIO(file.read_text(encoding="utf-8", errors="replace"))
+    return _raw(quietly(lambda archive: meshlane.read(archive, "ansysInp"), text))
 
 
 def quietly(read: Callable[[Any], Any], file: Path | io.StringIO) -> Any:

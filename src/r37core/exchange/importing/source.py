@@ -27,31 +27,32 @@ SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
 
 @dataclass(frozen=True)
 class Where:
-    """A part of the mesh: the nodes in the set `set_name` and in `further_sets`, or those that keep all the limits given.
+    """A part of the mesh: nodes of the `sets`, or of all the mesh, that keep the limits and are in no set of `without`.
 
     `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
-    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and
-    cone.
+    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `planes`: the nodes lie on one
+    of them, each given by its point (m) nearest to the origin; `tolerance` (m): of limits, cone and planes.
     """
 
-    set_name: str | None = None
-    further_sets: tuple[str, ...] = ()
+    sets: Annotated[tuple[str, ...], Key("sets of the file")] = ()
+    without: Annotated[tuple[str, ...], Key("sets left out")] = ()
     limits: tuple[tuple[str, str, float], ...] = ()
     cone_zr: Annotated[
         tuple[tuple[float, float], tuple[float, float]] | None,
         Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
     ] = None
+    planes: Annotated[tuple[tuple[float, float, float], ...], Key("planes, each by its point nearest the origin", "_m")] = ()
     tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", ge=1e-9, le=0.1)] = 1e-4
 
     def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
         """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
-        if self.set_name is None:
-            return self.within(mesh.points)
-        sets = (self.set_name, *self.further_sets)
-        return np.any([_edge_nodes(what, name, mesh, _set_members(what, name, mesh)) for name in sets], axis=0)
+        named, left_out = (
+            np.any([_edge_nodes(what, name, mesh) for name in names], axis=0) for names in (self.sets, self.without)
+        )
+        return self.within(mesh.points) & (named | (not self.sets)) & ~left_out
 
     def within(self, points: np.ndarray) -> np.ndarray:
-        """Mask over `points` (m), shape (n, 3), that keep limits and cone."""
+        """Mask over `points` (m), shape (n, 3), that keep limits, cone and planes."""
         x, y, z = points.T
         coordinates = {"r": np.hypot(x, y), "x": x, "z": z}
         members = np.ones(len(points), dtype=bool)
@@ -60,6 +61,10 @@ class Where:
             members &= sign * (coordinates[name] - value) >= -self.tolerance
         if self.cone_zr is not None:
             members &= np.abs(self.off_cone(points)) <= self.tolerance
+        if self.planes:
+            distances = np.linalg.norm(self.planes, axis=1)
+            off = points @ (self.planes / distances[:, None]).T - distances
+            members &= (np.abs(off) <= self.tolerance).any(axis=1)
         return members
 
     def off_cone(self, points: np.ndarray) -> np.ndarray:
@@ -71,21 +76,23 @@ class Where:
 
     def describe(self) -> str:
         """The rule in words."""
-        if self.set_name is not None:
-            return "the set " + " and ".join(f"'{name}'" for name in (self.set_name, *self.further_sets))
         parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
         if self.cone_zr is not None:
             parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
-        return f"the rule '{' and '.join(parts)}, to {self.tolerance:g} m'"
+        parts += ["a plane of planes_m"] * bool(self.planes)
+        named = ["the set " + " and ".join(map(repr, self.sets))] if self.sets else []
+        rules = [f"the rule '{' and '.join(parts)}, to {self.tolerance:g} m'"] if parts else []
+        return " and ".join(named + rules) + "".join(f" without '{name}'" for name in self.without)
 
     def as_yaml(self) -> str:
-        """The rule of a cone as an entry of blades.yaml has it."""
-        return f"{{ cone_zr_m: {self.meridian_as_yaml()}, tolerance_m: {_plain(self.tolerance)} }}"
+        """The rule of planes or of a cone as an entry of blades.yaml has it."""
+        key = "planes_m" if self.planes else "cone_zr_m"
+        return f"{{ {key}: {self.points_as_yaml()}, tolerance_m: {_plain(self.tolerance)} }}"
 
-    def meridian_as_yaml(self) -> str:
-        """Two points [z, r] (m) of the cone as an entry of blades.yaml has them."""
-        assert self.cone_zr is not None
-        return f"[{', '.join(f'[{_plain(z)}, {_plain(r)}]' for z, r in self.cone_zr)}]"
+    def points_as_yaml(self) -> str:
+        """The points (m) of planes or cone as an entry of blades.yaml has them."""
+        points = [", ".join(map(_plain, point)) for point in self.planes or self.cone_zr or ()]
+        return f"[[{'], ['.join(points)}]]"
 
 
 @dataclass(frozen=True)
@@ -197,9 +204,6 @@ def digest_of(files: Iterable[Path]) -> str:
     return digest.hexdigest()[:16]
 
 
-_MOST_NAMES = 30
-
-
 def _plain(number: float) -> str:
     """Number without an exponent: some readers of YAML take 1e-05 for a text."""
     return np.format_float_positional(number, trim="-")
@@ -209,16 +213,15 @@ def _set_members(what: str, name: str, mesh: RawMesh) -> np.ndarray:
     """Mask over the nodes of a set, whose name may differ in capitals."""
     names = {known.upper(): known for known in mesh.sets}
     if name.upper() not in names:
-        known = [f"{known} ({len(nodes)} nodes)" for known, nodes in sorted(mesh.sets.items()) if len(nodes)]
-        more = f", and {len(known) - _MOST_NAMES} more" if len(known) > _MOST_NAMES else ""
-        raise ImportRefused(f"{what}: found no set '{name}'; the file has: {', '.join(known[:_MOST_NAMES]) or 'none'}{more}")
+        raise ImportRefused(f"{what}: found no set '{name}'")
     members = np.zeros(len(mesh.points), dtype=bool)
     members[mesh.sets[names[name.upper()]]] = True
     return members
 
 
-def _edge_nodes(what: str, name: str, mesh: RawMesh, members: np.ndarray) -> np.ndarray:
+def _edge_nodes(what: str, name: str, mesh: RawMesh) -> np.ndarray:
     """The nodes of a set; where it has corners of elements alone, with the mid-nodes of edges between them."""
+    members = _set_members(what, name, mesh)
     middle = np.zeros(len(members), dtype=bool)
     between = np.zeros(len(members), dtype=bool)
     for kind, nodes in mesh.blocks.items():

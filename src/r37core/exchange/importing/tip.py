@@ -5,7 +5,7 @@ from scipy.spatial import cKDTree
 
 from r37core.blade.sense import LEAST, TipSense, sense_of_line
 from r37core.exchange.refusal import ImportRefused, warn_of
-from r37core.fem.surface import Faces, loops, nodes_of, patches
+from r37core.fem.surface import Faces, area_vectors, loops, nodes_of, smooth_patches
 
 _CORNER = np.cos(np.radians(40.0))
 _NEAR_END = 1.2  # mean thicknesses of the tip: a corner this near to the farthest point ends the edge's line
@@ -40,13 +40,6 @@ def off_revolution(points: np.ndarray) -> np.ndarray:
     size = np.ptp(points, axis=0).max()
     degree = min(2, len(np.unique(np.round(z / (1e-3 * size)))) - 1) if np.ptp(z) > 0.02 * size else 0
     return radius - np.polynomial.Polynomial.fit(z, radius, degree)(z)
-
-
-def is_flat(points: np.ndarray, within: float) -> bool:
-    """True if `points`, shape (n, 3), lie on a plane to `within` (m)."""
-    offsets = points - points.mean(axis=0)
-    _, _, axes = np.linalg.svd(offsets, full_matrices=False)
-    return float(np.abs(offsets @ axes[-1]).max()) <= within
 
 
 def check_order(points: np.ndarray) -> None:
@@ -152,7 +145,8 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
     rotation (compressors), against growing theta. The camber line is made of the tip's nodes that lie half-way between the
     two edges. Raises ImportRefused where that cannot be decided.
     """
-    count = patches(faces)
+    # any crease: whatever shares edges
+    count = int(smooth_patches(faces, area_vectors(faces, points), np.pi).max(initial=-1)) + 1
     if count > 1:
         raise ImportRefused(f"tip: its faces are {count} patches that do not touch; allowed: one")
     outlines = loops(faces)

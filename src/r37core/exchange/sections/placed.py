@@ -12,13 +12,11 @@ from r37core.blade.profile import BladeShapeError
 from r37core.blade.section_curve import SectionCurve
 from r37core.blade.sense import sense_of_line
 from r37core.exchange.orientation import Orientation, fitting_units
-from r37core.exchange.refusal import ImportRefused
+from r37core.exchange.refusal import ASKED, ImportRefused
 
 from .plausible import UNLESS, check_points, check_succession
 from .section_file import FileSection, SectionFile
 
-ASKED = "?"
-"""Value of a key that asks what fits."""
 OWN = "sections"
 """Value of hub and tip that ends the blade with its first or last section, whatever lies next to the file."""
 

@@ -1,0 +1,98 @@
+"""Files of meshes that are damaged in any way: the import takes them or refuses them, in no other error and no long time."""
+
+import random
+import re
+import time
+
+import meshio
+import pytest
+from box_mesh import plate, write_deck
+from defaults import MeshSource, Where
+
+from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.orientation import OURS
+from r37core.exchange.refusal import ImportRefused
+from r37core.exchange.write_mesh import write_mesh
+
+ROOT, TIP = Where(limits=(("x", "at_most", 0.2),), tolerance=1e-6), Where(limits=(("x", "at_least", 0.26),), tolerance=1e-6)
+
+
+def write_archive(mesh, file):
+    meshlane = pytest.importorskip("meshlane", reason="meshlane (make setup)")
+    meshlane.write(file, meshio.Mesh(mesh.points, dict(mesh.blocks)), file_format="ansysInp")
+
+
+WRITERS = {
+    "msh": write_mesh,
+    "bdf": write_mesh,
+    "inp": lambda mesh, file: write_deck(file),
+    "cdb": write_archive,
+}
+
+
+def cut_short(data, chance):
+    return data[: chance.randrange(len(data))]
+
+
+def without_lines(data, chance):
+    lines = data.splitlines(keepends=True)
+    first = chance.randrange(len(lines))
+    return b"".join(lines[:first] + lines[first + chance.choice((1, 10, 50)) :])
+
+
+def lines_twice(data, chance):
+    lines = data.splitlines(keepends=True)
+    first = chance.randrange(len(lines))
+    return b"".join(lines[: first + chance.choice((1, 5, 50))] + lines[first:])
+
+
+def exchanged_lines(data, chance):
+    lines = data.splitlines(keepends=True)
+    one, other = chance.sample(range(len(lines)), 2)
+    lines[one], lines[other] = lines[other], lines[one]
+    return b"".join(lines)
+
+
+def other_number(data, chance):
+    """Counts, numbers of nodes and elements, references and coordinates."""
+    number = chance.choice(list(re.finditer(rb"[-+.\deE]+", data)))
+    words = (b"nan", b"-1", b"0", b"7", b"1e308", b"", "\N{SUPERSCRIPT TWO}".encode(), b"1.5", b"x", b"99999999999999999999")
+    return data[: number.start()] + chance.choice(words) + data[number.end() :]
+
+
+def other_bytes(data, chance):
+    changed = bytearray(data)
+    for _ in range(3):
+        changed[chance.randrange(len(changed))] = chance.randrange(256)
+    return bytes(changed)
+
+
+DAMAGES = (cut_short, without_lines, lines_twice, exchanged_lines, other_number, other_bytes)
+
+
+@pytest.mark.parametrize("suffix", WRITERS)
+@pytest.mark.parametrize("damage", DAMAGES, ids=lambda damage: damage.__name__)
+@pytest.mark.filterwarnings("ignore")
+def test_a_damaged_mesh_is_taken_or_refused(tmp_path, suffix, damage):
+    file = tmp_path / f"mesh.{suffix}"
+    WRITERS[suffix](plate(), file)
+    whole, began = file.read_bytes(), time.monotonic()
+    for seed in range(6):
+        file.write_bytes(damage(whole, random.Random(seed)))
+        try:
+            import_mesh(MeshSource(file.name, OURS, ROOT, TIP, sense_check=False, revolution_tolerance=1e-3), tmp_path)
+        except ImportRefused as refusal:
+            assert str(refusal).startswith(file.name)
+    assert time.monotonic() - began < 30.0
+
+
+@pytest.mark.parametrize(
+    ("suffix", "comment"), [("bdf", b"$ caf\xe9\n"), ("inp", b"** caf\xe9\n"), ("cdb", b"/TITLE,caf\xe9\n")]
+)
+@pytest.mark.filterwarnings("ignore")
+def test_a_comment_in_latin_1(tmp_path, suffix, comment):
+    file = tmp_path / f"mesh.{suffix}"
+    WRITERS[suffix](plate(), file)
+    file.write_bytes(comment + file.read_bytes())
+    mesh, _ = import_mesh(MeshSource(file.name, OURS, ROOT, TIP, sense_check=False, revolution_tolerance=1e-3), tmp_path)
+    assert len(mesh.points) == len(plate().points)
