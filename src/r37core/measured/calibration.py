@@ -22,6 +22,9 @@ _ROUND_DRAWS, _LAST_DRAWS = 256, 1024
 _APART = 0.03
 """Least distance of a new design from all others, as a share of the numbers' distributions."""
 
+_LATER = 24
+"""Designs, the last ones, by which the error of surrogates is judged."""
+
 _SMALL = 0.02
 """Share of a measurement's largest value below which differences are absolute: the surrogates are of logarithms."""
 
@@ -119,7 +122,13 @@ class Calibration:
             for column, known in zip(simulated.T, done.T, strict=True)
         ]
         fits = tuple(self.run_all(calls, "surrogates"))
-        return Likelihood(fits, values, deviations, fit_chance(cube, done.all(axis=1), self.numbers.seed))
+        left_out = np.full((2, *simulated.shape), nan)
+        for place, (surrogate, known) in enumerate(zip(fits, done.T, strict=True)):
+            left_out[:, known, place] = surrogate.errors_left_out()
+        # the last designs lie where the measurements leave most possible
+        errors, sure = left_out[:, -_LATER:]
+        chance = fit_chance(cube, done.all(axis=1), self.numbers.seed)
+        return Likelihood(fits, values, deviations, chance, (errors, sure))
 
     def posterior(self) -> tuple[Likelihood, np.ndarray, np.ndarray]:
         """The likelihood, draws over the unit cube and the logarithm of the likelihood there, the most likely first."""

@@ -22,28 +22,41 @@ _WIDER = 10.0
 
 _MOVES = 6
 
-LATER = 24
-"""Designs, the last ones, by which a surrogate's error is judged: they lie where the measurements leave most possible."""
-
 
 @dataclass(frozen=True, eq=False)
 class Likelihood:
     """Likelihood of measured points over the unit cube, in which the numbers' distributions are uniform.
 
     `fits`: a surrogate of each point's value; `measured` and `deviations`, shape (points,), as the surrogates have them;
-    `buildable`: probability that a simulation completes.
+    `buildable`: probability that a simulation completes. `left_out`: error of each surrogate at designs that are left out, and
+    its deviation there, shape (designs, points), NaN where a run diverged.
     """
 
     fits: tuple[Fit, ...]
     measured: np.ndarray
     deviations: np.ndarray
     buildable: Callable[[np.ndarray], np.ndarray]
+    left_out: tuple[np.ndarray, np.ndarray]
 
     @cached_property
     def widening(self) -> np.ndarray:
         """Factor of each surrogate's deviation, shape (points,): from 1 on, by what it errs at designs that are left out."""
-        later = (fit.errors_left_out()[-LATER:] for fit in self.fits)
-        return np.array([max(float(np.sqrt(np.mean(errors**2))), 1.0) for errors in later])
+        ratios = np.divide(*self.left_out, out=np.zeros(self.left_out[0].shape), where=self.left_out[1] > 0.0)
+        return np.maximum(np.sqrt(np.nanmean(ratios**2, axis=0)), 1.0)
+
+    @cached_property
+    def power(self) -> float:
+        """Share of the points that count as independent: surrogates err together where the motion is on another branch.
+
+        The effective number n of points is N^2 over the sum of their squared correlations, less what chance gives these.
+        """
+        errors, deviations = self.left_out
+        scaled = np.nan_to_num(errors / np.hypot(self.deviations, self.widening * deviations))
+        count, designs = scaled.shape[1], len(scaled)
+        products = scaled.T @ scaled / designs
+        squares = (products**2).sum() - (np.diag(products) ** 2).sum()
+        by_chance = (np.outer(np.diag(products), np.diag(products)).sum() - (np.diag(products) ** 2).sum()) / designs
+        return count / (count + max(squares - by_chance, 0.0))
 
     def residuals(self, cube: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Measured less simulated values, and their standard deviation, shape (points, draws).
@@ -64,7 +77,7 @@ class Likelihood:
 
     def log(self, cube: np.ndarray) -> np.ndarray:
         """Logarithm of the likelihood, shape (draws,)."""
-        return np.logaddexp(*self.branches(cube)).sum(axis=0) + np.log(np.maximum(self.buildable(cube), 1e-300))
+        return self.power * np.logaddexp(*self.branches(cube)).sum(axis=0) + np.log(np.maximum(self.buildable(cube), 1e-300))
 
     def elsewhere(self, cube: np.ndarray) -> np.ndarray:
         """Probability that each point lies on another branch, shape (points,), over draws."""
