@@ -38,7 +38,7 @@ def test_the_law_of_the_simulation_gives_its_numbers_back():
         "depth_um": 1e6 * np.tile(depths, 2),
         "force_kn": 1e-3 * np.concatenate([rig_forces(depths, HIDDEN), rig_forces(depths, thick)]),
     }
-    rig |= {"Thickness [mm]": np.repeat([2.0, 3.0], len(depths)), "test": np.repeat(["a", "b"], len(depths)), "time_s": 0.0}
+    rig |= {"Thickness [mm]": np.repeat([2.0, 3.0], len(depths)), "Test": np.repeat(["a", "b"], len(depths)), "time_s": 0.0}
     fit = r37.lining_from_rub_test(rig, width_m=WIDTH, contact_length_m=3e-4)
     assert {name: value.best for name, value in fit.values.items()} == pytest.approx(TRUE, rel=1e-6)
     assert fit.unknown == () and fit.outliers == ()
@@ -133,9 +133,9 @@ def test_many_points_are_fitted():
         ("depth_mm,force_n\n0,1,3,4\n0,2,5,6", "more cells than the header; allowed: as many, and decimal points"),
         (
             "depth_mm,force_lbf\n.1,3\n.2,5",
-            "found force_lbf, without a known unit in the header 'depth_mm, force_lbf'; .*force_ with n, kn",
+            "found force_lbf, without a known unit in the header 'depth_mm, force_lbf'; .*force n, kn;",
         ),
-        ("depth_mm,load\n.1,3\n.2,5", "found no force in the header 'depth_mm, load'; allowed: depth_ with m, cm, mm"),
+        ("depth_mm,load\n.1,3\n.2,5", "found no force in the header 'depth_mm, load'; allowed: depth m, cm, mm"),
         ("depth_mm,force_n,uncertanty_n\n.1,3,1\n.2,5,1", r"uncertanty_n \(did you mean uncertainty\?\)"),
         ("depth_mm,force_n,thickness_mm\n.1,3,2\n.2,5,2", "thickness_mm, given twice"),
         ("depth_mm,force_n\n.1,3\n# remark\n.2,nan\n.3,5", "point 2: force_n: found nan; allowed: a number"),

@@ -48,13 +48,13 @@ def lining_from_rub_test(
         >>> f"{1e3 * fit.contact_length.best:.3f} mm"
         '0.016 mm'
     """
-    given = {"width_m": width_m, "thickness_m": thickness_m, "contact_length_m": contact_length_m}
-    values = {key.removesuffix("_m"): number(value, key, "m") for key, value in given.items() if value is not None}
-    for name, value in values.items():
+    lengths = {"width": width_m, "thickness": thickness_m, "contact_length": contact_length_m}
+    lengths = {name: number(value, f"{name}_m", "m") for name, value in lengths.items() if value is not None}
+    for name, value in lengths.items():
         if not 0.0 < value <= 1.0:
             raise ConfigError(f"{name}_m: found {value}; allowed: more than 0, at most 1")
     lining = chosen_scene(scene, read_configuration(config)).entry.scene().lining
     if lining is None or lining.published:
         raise ConfigError("scene: found one without a contact length of its lining; allowed: such as material_abradable")
-    contact_length = values.pop("contact_length", None)
-    return fit_lining(read_rub_test(table, values), lining, contact_length)
+    contact_length = lengths.pop("contact_length", None)
+    return fit_lining(read_rub_test(table, lengths), lining, contact_length)

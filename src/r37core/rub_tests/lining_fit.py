@@ -98,18 +98,18 @@ class _Fit:
 
 def fit_lining(test: pd.DataFrame, lining: Lining, contact_length: float | None = None) -> LiningFit:
     """Fit of the points of `read_rub_test`; `lining`: moduli that a contact length goes with where it (m) is not given."""
-    given = np.log(np.maximum([getattr(lining, name) for name in _MODULI], 1e-100))
+    scene_logs = np.log(np.maximum([getattr(lining, name) for name in _MODULI], 1e-100))
     sample = test.iloc[:: 1 + len(test) // 2000]
     strains = np.quantile(np.maximum(sample.deepest / sample.thickness, 1e-9), (0.05, 0.2, 0.4, 0.6, 0.8, 1.0))
-    starts = [_scaled(logs, sample) for logs in (given, *((*given[:2], given[0] + np.log(strain)) for strain in strains))]
-    starts = sorted(starts, key=lambda logs: _distance(logs, sample).mean())[:3]
+    shapes = [scene_logs, *((*scene_logs[:2], scene_logs[0] + np.log(strain)) for strain in strains)]
+    starts = sorted((_scaled(shape, sample) for shape in shapes), key=lambda logs: _distance(logs, sample).mean())[:3]
     robust = min((_Fit(sample, logs, 3, "soft_l1").logs for logs in starts), key=lambda logs: _distance(logs, sample).mean())
     distance = _distance(robust, test)
     far = distance > max(8.0 * 1.48 * float(np.median(distance)), 1e-3)
     points = test if len(far) < 6 or np.sum(far) > max(0.1 * len(far), 1.0) else test[~far]
-    free, single = _Fit(points, robust, 3), _Fit(points, _scaled(given, points), 1)
+    free, single = _Fit(points, robust, 3), _Fit(points, _scaled(scene_logs, points), 1)
     # a line through the origin may be elastic, or yield at once
-    line = _scaled(given - (0.0, 0.0, given[2] - given[0] + 28.0), points)
+    line = _scaled((*scene_logs[:2], scene_logs[0] - 28.0), points)
     if _Fit(points, line, 1).is_as_good_as(free):
         free = _Fit(points, line, 3)
     elastic, plastic, stress = np.exp(free.logs)
@@ -119,7 +119,7 @@ def fit_lining(test: pd.DataFrame, lining: Lining, contact_length: float | None 
     if contact_length is not None:
         length = Estimate(contact_length, (contact_length, contact_length), (contact_length, contact_length))
     elif as_scene:
-        length = single.estimate(np.exp(single.logs - given)[0], np.ones(1))
+        length = single.estimate(np.exp(single.logs - scene_logs)[0], np.ones(1))
     known, unit = (1.0, "_times_length_n_m") if contact_length is None else (contact_length, "_pa")
     axes = dict(zip((*_MODULI, "tangent_modulus"), (*np.eye(3), tangent), strict=True))
     products = dict(zip(axes, (elastic, plastic, stress, elastic * tangent[0]), strict=True))
@@ -128,7 +128,7 @@ def fit_lining(test: pd.DataFrame, lining: Lining, contact_length: float | None 
         contact_length=length,
         values={name + unit: free.estimate(products[name] / known, axis) for name, axis in axes.items()},
         unknown=tuple(dict.fromkeys(_unknown(free, points))),
-        outliers=tuple(int(at) + 1 for at in test.index.difference(points.index)),
+        outliers=tuple(int(row) + 1 for row in test.index.difference(points.index)),
         scatter=float(np.sqrt(np.mean((free.residuals * free.scale) ** 2))),
         scene={"lining": {"contact_length_m": length.best, **moduli}},
     )
@@ -137,7 +137,7 @@ def fit_lining(test: pd.DataFrame, lining: Lining, contact_length: float | None 
 def _scaled(logs: Any, test: pd.DataFrame) -> np.ndarray:
     """Logarithms of products with the contact length that suits moduli of these `logs` best, shape (3,)."""
     force = lining_force(np.exp(logs), test)
-    return logs + np.log(max(force @ test.force / (force @ force), 1e-30))
+    return np.asarray(logs) + np.log(max(force @ test.force / (force @ force), 1e-30))
 
 
 def _distance(logs: np.ndarray, test: pd.DataFrame) -> np.ndarray:

@@ -15,7 +15,8 @@ from r37core.config import ConfigError
 from r37core.config.messages import did_you_mean, single_line
 
 _NEEDED, _FORCE_UNITS = ("depth", "force", "thickness", "width"), {"n": 1.0, "kn": 1e3}
-_UNITS = dict.fromkeys(_NEEDED, LENGTH_UNITS) | dict.fromkeys(("force", "uncertainty"), _FORCE_UNITS) | {"speed": {"m_s": 1.0}}
+_UNITS = dict.fromkeys(_NEEDED, LENGTH_UNITS) | dict.fromkeys(("force", "uncertainty"), _FORCE_UNITS)
+_UNITS |= {"speed": {"m_s": 1.0}, "test": {"": 1.0}}
 """Quantity of a column -> unit at the end of the column's name -> what one of it is in the SI."""
 
 
@@ -25,40 +26,40 @@ def read_rub_test(table: Path | str | Mapping[str, Any], constant: Mapping[str, 
     Also `speed` (m/s) and `uncertainty` (N), where the `table`, a CSV file or columns by name, has them. `constant`: thickness
     and width that all points have. Raises ConfigError, with points counted from 1.
     """
-    name = str(table) if isinstance(table, Path | str) else "table"
+    file = Path(table) if isinstance(table, Path | str) else None
     try:
-        if name == "table":
+        if file is None:
             return _points(pd.DataFrame(table), constant)
-        cells = pd.read_csv(io.StringIO(read_text(Path(name))), comment="#", dtype=str, skipinitialspace=True)
+        cells = pd.read_csv(io.StringIO(read_text(file)), comment="#", dtype=str, skipinitialspace=True)
         if not isinstance(cells.index, pd.RangeIndex):
             raise ConfigError("found rows with more cells than the header; allowed: as many, and decimal points")
         return _points(cells, constant)
     except (OSError, TextFileError, ValueError) as error:
         remedy = "" if isinstance(error, ConfigError) else "; allowed: a header, and rows of as many cells"
-        raise ConfigError(f"{name}: {getattr(error, 'strerror', None) or str(error).strip()}{remedy}") from None
+        raise ConfigError(f"{file or 'table'}: {getattr(error, 'strerror', None) or str(error).strip()}{remedy}") from None
 
 
 def _points(cells: pd.DataFrame, constant: Mapping[str, float]) -> pd.DataFrame:
-    points = pd.DataFrame(dict(constant), index=range(len(cells)))
-    for quantity, (title, factor) in _columns([*cells.columns], constant).items():
-        points[quantity] = factor * pd.to_numeric(cells[title], errors="coerce").to_numpy(float)
-        wrong = ~np.isfinite(points[quantity]) | ((points[quantity] <= 0.0) & (quantity not in ("depth", "force")))
-        _refuse(wrong, cells[title], "a number, more than 0 but for depth and force")
+    points, columns = pd.DataFrame(dict(constant), index=range(len(cells))), _columns([*cells.columns], constant)
     # without a column of tests each point is a first contact
-    places = cells["test"].astype(str).to_numpy() if "test" in cells else np.arange(len(cells))
-    points["deepest"] = points.depth.groupby(places).cummax()
+    tests = cells[columns.pop("test")[0]].astype(str).to_numpy() if "test" in columns else np.arange(len(cells))
+    for quantity, (title, factor) in columns.items():
+        points[quantity] = factor * pd.to_numeric(cells[title], errors="coerce").to_numpy(float)
+        impossible = ~np.isfinite(points[quantity]) | ((points[quantity] <= 0.0) & (quantity not in ("depth", "force")))
+        _refuse(impossible, cells[title], "a number, more than 0 but for depth and force")
+    points["deepest"] = points.depth.groupby(tests).cummax()
     _refuse(points.depth > points.thickness, points.depth, "at most the thickness of the lining, in m")
     pressed = points.force[points.depth > 0.0]
     if len(pressed) < 2 or not pressed.mean() > 0.0:
-        found = f"found {len(pressed)} points with a depth above 0 and a mean force of {pressed.mean():g} N"
-        raise ConfigError(f"{found}; allowed: two or more, with forces that are positive while the tool presses")
+        numbers = f"{len(pressed)} points with a depth above 0 and a mean force of {pressed.mean():g} N"
+        raise ConfigError(f"found {numbers}; allowed: two or more, with forces that are positive while the tool presses")
     return points
 
 
-def _refuse(wrong: pd.Series, cells: pd.Series, allowed: str) -> None:
-    if wrong.any():
-        at = int(np.argmax(wrong))
-        raise ConfigError(f"point {at + 1}: {cells.name}: found {single_line(str(cells.iloc[at]))}; allowed: {allowed}")
+def _refuse(refused: pd.Series, cells: pd.Series, allowed: str) -> None:
+    if refused.any():
+        row = int(np.argmax(refused))
+        raise ConfigError(f"point {row + 1}: {cells.name}: found {single_line(str(cells.iloc[row]))}; allowed: {allowed}")
 
 
 def _columns(header: list[str], constant: Mapping[str, float]) -> dict[str, tuple[str, float]]:
@@ -76,7 +77,7 @@ def _columns(header: list[str], constant: Mapping[str, float]) -> dict[str, tupl
             columns[quantity] = (title, _UNITS[quantity][unit])
     problems = problems or [f"no {name}" for name in _NEEDED if name not in columns and name not in constant]
     if problems:
-        units = "; ".join(f"{name}_ with {', '.join(units)}" for name, units in _UNITS.items())
-        found = f"found {', '.join(problems)} in the header '{single_line(', '.join(map(str, header)))}'"
-        raise ConfigError(f"{found}; allowed: {units}; test; thickness_m and width_m as arguments")
+        units = "; ".join(f"{name} {', '.join(units)}".strip() for name, units in _UNITS.items())
+        place = f"in the header '{single_line(', '.join(map(str, header)))}'"
+        raise ConfigError(f"found {', '.join(problems)} {place}; allowed: {units}; thickness_m and width_m as arguments")
     return columns
