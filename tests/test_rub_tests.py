@@ -92,10 +92,12 @@ def test_a_line_through_the_origin_gives_a_contact_length_and_no_moduli():
     assert [*fit.scene["lining"]] == ["contact_length_m"]
 
 
-def test_two_points_give_a_contact_length_alone():
-    fit = r37.lining_from_rub_test({"depth_mm": [0.1, 0.2], "force_n": [40.0, 81.0]}, **RIG)
-    assert fit.contact_length.best == pytest.approx(2.02e-5, rel=0.01)
+@pytest.mark.parametrize(("depths", "forces"), [([0.1, 0.2], [40, 81]), ([0.01, 0.1, 0.2], [30, 90, 130])])
+def test_two_or_three_points_have_no_ranges_of_moduli(depths, forces):
+    """Only the contact length that goes with the scene's moduli has a range."""
+    fit = r37.lining_from_rub_test({"depth_mm": depths, "force_n": forces}, **RIG)
     assert {value.range_95 for value in fit.values.values()} == {(0.0, np.inf)} and fit.unknown
+    assert 0.0 < fit.contact_length.range_95[0] < fit.contact_length.best < fit.contact_length.range_95[1] < 1e-3
 
 
 def test_an_outlier_is_named_and_left_out():

@@ -48,8 +48,8 @@ def lining_from_rub_test(
         >>> f"{1e3 * fit.contact_length.best:.3f} mm"
         '0.016 mm'
     """
-    lengths = {"width": width_m, "thickness": thickness_m, "contact_length": contact_length_m}
-    lengths = {name: number(value, f"{name}_m", "m") for name, value in lengths.items() if value is not None}
+    arguments = {"width": width_m, "thickness": thickness_m, "contact_length": contact_length_m}
+    lengths = {name: number(value, f"{name}_m", "m") for name, value in arguments.items() if value is not None}
     for name, value in lengths.items():
         if not 0.0 < value <= 1.0:
             raise ConfigError(f"{name}_m: found {value}; allowed: more than 0, at most 1")

@@ -19,9 +19,6 @@ from r37core.contact.scene import Lining
 
 _MODULI = ("elastic_modulus", "plastic_modulus", "yield_stress")
 
-_BLIND = 1e-6
-"""Singular value over the largest below which forces say nothing; differences in the Jacobian have an error of 1e-8."""
-
 
 @dataclass(frozen=True)
 class Estimate:
@@ -74,7 +71,8 @@ class _Fit:
         # no rig scatters less than 1e-4 of its largest force, or than its stated uncertainty
         self.variance = max(self.squares / max(self.freedom, 1), 1.0 if known else 0.005**2)
         self.left, sizes, self.axes = np.linalg.svd(solution.jac, full_matrices=False)
-        self.blind, self.sizes = sizes < _BLIND * sizes[0], np.maximum(sizes, _BLIND * sizes[0])
+        # forces say nothing along smaller ones: finite differences in the Jacobian have an error of 1e-8
+        self.blind, self.sizes = sizes < 1e-6 * sizes[0], np.maximum(sizes, 1e-6 * sizes[0])
         # HC3 of MacKinnon and White (1985) holds for a scatter that grows with the force, too
         scores = self.left * (self.residuals / np.maximum(1.0 - np.sum(self.left**2, axis=1), 0.1))[:, None]
         self.scores = scores.T @ scores
@@ -105,6 +103,7 @@ def fit_lining(test: pd.DataFrame, lining: Lining, contact_length: float | None 
     starts = sorted((_scaled(shape, sample) for shape in shapes), key=lambda logs: _distance(logs, sample).mean())[:3]
     robust = min((_Fit(sample, logs, 3, "soft_l1").logs for logs in starts), key=lambda logs: _distance(logs, sample).mean())
     distance = _distance(robust, test)
+    # a tenth of the points or more are no outliers, but another law
     far = distance > max(8.0 * 1.48 * float(np.median(distance)), 1e-3)
     points = test if len(far) < 6 or np.sum(far) > max(0.1 * len(far), 1.0) else test[~far]
     free, single = _Fit(points, robust, 3), _Fit(points, _scaled(scene_logs, points), 1)
@@ -115,12 +114,11 @@ def fit_lining(test: pd.DataFrame, lining: Lining, contact_length: float | None 
     elastic, plastic, stress = np.exp(free.logs)
     tangent = np.array([plastic, elastic, 0.0]) / (elastic + plastic)
     as_scene = contact_length is None and single.is_as_good_as(free)
-    length = free.estimate(elastic / lining.elastic_modulus, np.eye(3)[0])
+    known, unit, length = 1.0, "_times_length_n_m", free.estimate(elastic / lining.elastic_modulus, np.eye(3)[0])
     if contact_length is not None:
-        length = Estimate(contact_length, (contact_length, contact_length), (contact_length, contact_length))
+        known, unit, length = contact_length, "_pa", Estimate(contact_length, *2 * [(contact_length, contact_length)])
     elif as_scene:
         length = single.estimate(np.exp(single.logs - scene_logs)[0], np.ones(1))
-    known, unit = (1.0, "_times_length_n_m") if contact_length is None else (contact_length, "_pa")
     axes = dict(zip((*_MODULI, "tangent_modulus"), (*np.eye(3), tangent), strict=True))
     products = dict(zip(axes, (elastic, plastic, stress, elastic * tangent[0]), strict=True))
     moduli = {} if as_scene else {f"{name}_pa": float(products[name] / length.best) for name in _MODULI}
@@ -149,7 +147,7 @@ def _distance(logs: np.ndarray, test: pd.DataFrame) -> np.ndarray:
 def _unknown(fit: _Fit, test: pd.DataFrame) -> Iterator[str]:
     """Directions of the logarithms with a range of 95% to more than ten times the best value, and powers beyond the law."""
     deviations = np.sqrt(np.maximum(np.diag(fit.scores), fit.variance)) / fit.sizes
-    wide = fit.blind | (fit.quantiles[1] * deviations > np.log(10.0)) | (fit.freedom < 1)
+    wide = fit.blind | (fit.quantiles[1] * deviations > np.log(10.0))
     for axis in fit.axes[wide]:
         names = [name for name, part in zip(_MODULI, axis, strict=True) if abs(part) > 0.15]
         yield f"{' and '.join(names)}{' apart' if len(names) > 1 else ''}: unloading (column test) or other depths may tell"
