@@ -52,9 +52,7 @@ def test_a_long_file_has_rows_that_are_chosen_and_a_wide_one_columns(read):
     assert read(long, replace(READING, rows={"blade": "B"})).values == (2.0, 4.0)
     wide = "speed_rad_s,a_m,b_m\n1,1,3\n"
     assert read(wide, replace(READING, value="b_m")).values == (3.0,)
-    with pytest.raises(
-        MeasurementError, match=r"2 columns that it may be; .*a_m \(length\), b_m"
-    ) as refused:
+    with pytest.raises(MeasurementError, match=r"2 columns that it may be; .*a_m \(length\), b_m") as refused:
         read(wide)
     assert refused.value.key == "value"
     with pytest.raises(MeasurementError, match=r"the columns are: speed_rad_s \(speed\), a_m \(length\), b_m \(length\)"):

@@ -25,7 +25,19 @@ from r37core.base.io import FILE_ATTRIBUTES
 from r37core.product.extensions import FOLDERS
 
 LAYERS = ["base", "machine_code", "blade", "mesh", "fem", "rom", "contact", "stress", "time_integration", "results", "adaptive"]
-LAYERS += ["exchange", "config", "plans", "sweep", "surrogate", "figures", "explorer", *FOLDERS, "product", "console"]
+LAYERS += [
+    "exchange",
+    "config",
+    "rub_tests",
+    "plans",
+    "sweep",
+    "surrogate",
+    "figures",
+    "explorer",
+    *FOLDERS,
+    "product",
+    "console",
+]
 
 
 def test_the_lock_has_a_version_of_all_that_is_asked_for(root):
@@ -141,7 +153,7 @@ def test_public_names_are_those_of_the_page(root):
     """What `import r37` gives stands in docs/python.md, and is documented."""
     text = (root / "docs/python.md").read_text()
     calls = [name for name in r37.__all__ if callable(getattr(r37, name)) and not isinstance(getattr(r37, name), type)]
-    assert len(calls) == 24
+    assert len(calls) == 25
     assert [name for name in calls if f"`r37.{name}(" not in text or not getattr(r37, name).__doc__] == []
 
 

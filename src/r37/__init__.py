@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from .choices import BladeChoice, SceneChoice, blade, blades, scene, scenes
     from .plots import plot_campbell, plot_designs, plot_response, plot_rotor, plot_run_ups, plot_tolerances
+    from .rub_tests import lining_from_rub_test
     from .run_results import RunResults, open_results
     from .run_up_calls import run_up, run_ups
     from .runs import run
@@ -46,6 +47,7 @@ __all__ = [
     "compare_measured",
     "designs",
     "init",
+    "lining_from_rub_test",
     "open_results",
     "plot_campbell",
     "plot_designs",
@@ -73,6 +75,7 @@ _NAMES_OF = {
     "r37core.rom.rotation": ("BucklingError",),
     ".choices": ("BladeChoice", "SceneChoice", "blade", "blades", "scene", "scenes"),
     ".plots": ("plot_campbell", "plot_designs", "plot_response", "plot_rotor", "plot_run_ups", "plot_tolerances"),
+    ".rub_tests": ("lining_from_rub_test",),
     ".run_results": ("RunResults", "open_results"),
     ".run_up_calls": ("run_up", "run_ups"),
     ".runs": ("run",),

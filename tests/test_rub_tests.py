@@ -1,0 +1,166 @@
+"""Contact length and moduli of a lining from the forces of a rub rig."""
+
+import contact_laws
+import numpy as np
+import pandas as pd
+import pytest
+
+import r37
+from r37core.contact.scene import Lining
+from r37core.rub_tests.lining_fit import fit_lining
+from r37core.rub_tests.rig_table import read_rub_test
+
+SHIPPED = Lining(5e-3, 20e9, 5e9, 1.5)
+HIDDEN = Lining(2e-3, 2e9, 6e8, 2e7, contact_length=3e-4)
+TRUE = {"elastic_modulus_pa": 2e9, "plastic_modulus_pa": 6e8, "yield_stress_pa": 2e7, "tangent_modulus_pa": 6e8 / 1.3}
+WIDTH, RAMP = 0.01, np.linspace(5e-6, 2e-4, 40)
+RIG = {"width_m": WIDTH, "thickness_m": 2e-3}
+
+
+def rig_forces(depths, lining):
+    """Forces that the compiled law of the simulation gives for depths one after another."""
+    wear, forces = 0.0, []
+    for depth in depths:
+        stress, wear = contact_laws.return_mapping(depth, wear, lining)
+        forces.append(stress * WIDTH * lining.contact_length)
+    return np.array(forces)
+
+
+def points(depths, forces, thickness=2e-3, **columns):
+    return read_rub_test({"depth_m": depths, "force_n": forces, **columns}, {"width": WIDTH, "thickness": thickness})
+
+
+def test_the_law_of_the_simulation_gives_its_numbers_back():
+    """Two thicknesses, each pressed and released on one place: every branch of the law."""
+    depths = np.concatenate([RAMP, np.linspace(1.9e-4, 1e-4, 10)])
+    thick = Lining(3e-3, 2e9, 6e8, 2e7, contact_length=3e-4)
+    rig = {
+        "depth_um": 1e6 * np.tile(depths, 2),
+        "force_kn": 1e-3 * np.concatenate([rig_forces(depths, HIDDEN), rig_forces(depths, thick)]),
+    }
+    rig |= {"Thickness [mm]": np.repeat([2.0, 3.0], len(depths)), "Test": np.repeat(["a", "b"], len(depths)), "time_s": 0.0}
+    fit = r37.lining_from_rub_test(rig, width_m=WIDTH, contact_length_m=3e-4)
+    assert {name: value.best for name, value in fit.values.items()} == pytest.approx(TRUE, rel=1e-6)
+    assert fit.unknown == () and fit.outliers == ()
+    # any other split of the products has the same forces
+    keys = r37.lining_from_rub_test(rig, width_m=WIDTH).scene["lining"]
+    assert keys == pytest.approx(
+        {"contact_length_m": 3e-5}
+        | {f"{name}_pa": 10 * TRUE[f"{name}_pa"] for name in ("elastic_modulus", "plastic_modulus", "yield_stress")},
+        rel=1e-6,
+    )
+    scene = r37.scene("material_abradable", **{f"lining.{key}": value for key, value in keys.items()}).entry.scene()
+    split = rig_forces(
+        depths,
+        Lining(
+            2e-3,
+            scene.lining.elastic_modulus,
+            scene.lining.plastic_modulus,
+            scene.lining.yield_stress,
+            contact_length=scene.lining.contact_length,
+        ),
+    )
+    np.testing.assert_allclose(split, rig_forces(depths, HIDDEN), rtol=1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("relative", [True, False])
+def test_ranges_of_95_percent_hold_the_hidden_numbers(relative):
+    """Noise of 5%, of each force or of the largest one."""
+    random, forces = np.random.default_rng(7), rig_forces(RAMP, HIDDEN)
+    size = 0.05 * (forces if relative else forces.max())
+    held = {name: 0 for name in TRUE}
+    for _ in range(200):
+        fit = fit_lining(points(RAMP, forces + size * random.standard_normal(len(RAMP))), SHIPPED, 3e-4)
+        for name, true in TRUE.items():
+            held[name] += fit.values[name].range_95[0] <= true <= fit.values[name].range_95[1]
+    assert min(held.values()) >= 180
+    assert max(held["plastic_modulus_pa"], held["tangent_modulus_pa"]) <= 198
+
+
+def test_a_line_through_the_origin_gives_a_contact_length_and_no_moduli():
+    """It may be elastic or yield from the start; with the scene's moduli it is one number."""
+    lining, depths = Lining(5e-3, 20e9, 5e9, 1.5, contact_length=2e-4), np.linspace(1e-5, 1e-3, 20)
+    random, held = np.random.default_rng(3), 0
+    for _ in range(100):
+        noisy = rig_forces(depths, lining) * (1.0 + 0.05 * random.standard_normal(20))
+        fit = fit_lining(points(depths, noisy, 5e-3), SHIPPED)
+        held += fit.contact_length.range_95[0] <= 2e-4 <= fit.contact_length.range_95[1]
+    assert 88 <= held <= 99
+    assert fit.values["elastic_modulus_times_length_n_m"].range_95 == (0.0, np.inf)
+    assert fit.values["tangent_modulus_times_length_n_m"].best == pytest.approx(2e-4 * 4e9, rel=0.1)
+    assert fit.unknown[0].startswith("elastic_modulus and plastic_modulus apart")
+    assert [*fit.scene["lining"]] == ["contact_length_m"]
+
+
+@pytest.mark.parametrize(("depths", "forces"), [([0.1, 0.2], [40, 81]), ([0.01, 0.1, 0.2], [30, 90, 130])])
+def test_two_or_three_points_have_no_ranges_of_moduli(depths, forces):
+    """Only the contact length that goes with the scene's moduli has a range."""
+    fit = r37.lining_from_rub_test({"depth_mm": depths, "force_n": forces}, **RIG)
+    assert {value.range_95 for value in fit.values.values()} == {(0.0, np.inf)} and fit.unknown
+    assert 0.0 < fit.contact_length.range_95[0] < fit.contact_length.best < fit.contact_length.range_95[1] < 1e-3
+
+
+def test_an_outlier_is_named_and_left_out():
+    forces = rig_forces(RAMP, HIDDEN) * (1.0 + 0.03 * np.random.default_rng(0).standard_normal(40))
+    forces[24] *= 2.0
+    fit = fit_lining(points(RAMP, forces), SHIPPED, 3e-4)
+    assert fit.outliers == (25,)
+    assert fit.values["tangent_modulus_pa"].best == pytest.approx(TRUE["tangent_modulus_pa"], rel=0.05)
+
+
+@pytest.mark.parametrize(("power", "told"), [(0.0, False), (0.5, True)])
+def test_speeds_that_disagree_are_told(power, told):
+    speed = np.repeat([50.0, 100.0], 40)
+    noise = 1.0 + 0.05 * np.random.default_rng(1).standard_normal(80)
+    forces = np.tile(rig_forces(RAMP, HIDDEN), 2) * (speed / 50.0) ** power * noise
+    unknown = fit_lining(points(np.tile(RAMP, 2), forces, speed_m_s=speed), SHIPPED).unknown
+    assert any(text.startswith("speed: forces have a further power 0.") for text in unknown) == told
+
+
+def test_many_points_are_fitted():
+    depths = np.linspace(1e-6, 2e-4, 100_000)
+    fit = fit_lining(
+        points(depths, rig_forces(depths, HIDDEN) * (1.0 + 0.05 * np.random.default_rng(0).standard_normal(100_000))),
+        SHIPPED,
+        3e-4,
+    )
+    assert fit.values["elastic_modulus_pa"].best == pytest.approx(2e9, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "No columns to parse.*; allowed: a header"),
+        ("depth_mm,force_n\n.1,3\n.2,4,5", "Expected 2 fields in line 3, saw 3; allowed: a header"),
+        ("depth_mm,force_n\n0,1,3,4\n0,2,5,6", "more cells than the header; allowed: as many, and decimal points"),
+        (
+            "depth_mm,force_lbf\n.1,3\n.2,5",
+            "found force_lbf, without a known unit in the header 'depth_mm, force_lbf'; .*force n, kn;",
+        ),
+        ("depth_mm,load\n.1,3\n.2,5", "found no force in the header 'depth_mm, load'; allowed: depth m, cm, mm"),
+        ("depth_mm,force_n,uncertanty_n\n.1,3,1\n.2,5,1", r"uncertanty_n \(did you mean uncertainty\?\)"),
+        ("depth_mm,force_n,thickness_mm\n.1,3,2\n.2,5,2", "thickness_mm, given twice"),
+        ("depth_mm,force_n\n.1,3\n# remark\n.2,nan\n.3,5", "point 2: force_n: found nan; allowed: a number"),
+        ("depth_mm,force_n,speed_m_s\n.1,3,0\n.2,5,9", "point 1: speed_m_s: found 0; allowed: a number, more than 0"),
+        ("depth_m,force_n\n.1,3\n.2,5", "point 1: depth: found 0.1; allowed: at most the thickness"),
+        ("depth_mm,force_n\n.1,-3\n.2,-5", "2 points with a depth above 0 and a mean force of -4 N; allowed: .*positive"),
+    ],
+)
+def test_a_table_that_fits_nothing_is_refused(tmp_path, text, message):
+    file = tmp_path / "rig.csv"
+    file.write_text(text)
+    with pytest.raises(r37.ConfigError, match=f"^{file}: .*{message}"):
+        r37.lining_from_rub_test(file, **RIG)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"width_m": -1}, "width_m: found -1; allowed: more than 0"),
+        ({"scene": "direct"}, "scene: found one without a contact length of its lining"),
+        ({"thickness_m": None}, "table: found no thickness in the header"),
+    ],
+)
+def test_arguments_that_fit_nothing_are_refused(arguments, message):
+    with pytest.raises(r37.ConfigError, match=message):
+        r37.lining_from_rub_test(pd.DataFrame({"depth_mm": [0.1, 0.2], "force_n": [40, 81]}), **(RIG | arguments))
