@@ -16,7 +16,7 @@ use rule step as observed with:
         **step("measured.steps.observe"),
         scene=sweep.plain_scene,
         choice=measured.choice,
-        measurements=measured.of,
+        measurements=measured.plain_measurements,
         tip_line=lambda wildcards: settings.scenes[wildcards.scene].tip_line,
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from .sections_entry import ASKED, OWN
 
 CONFIG_FILES = ("blades_file", "fidelity_file", "scenes_file")
-SECTION_FILES = {"measured": ("file",), "tolerances": ("drawn_file",)}
+SECTION_FILES = {"measured": ("file",), "tolerances": ("drawn_file",), "calibrate": ("rub_test",)}
 """Sections of config.yaml, or lists of them -> their keys with names of files."""
 
 TABLES, IMPORTED = ("profiles", "stacking_table", "designs"), ("mesh", "matrices", "sections")

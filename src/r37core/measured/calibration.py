@@ -40,7 +40,7 @@ class Numbers:
     nominal: Sequence[float]
     seed: int
 
-    def at(self, share: Sequence[float]) -> dict[VariedNumber, float]:
+    def values(self, share: Sequence[float]) -> dict[VariedNumber, float]:
         """Values at a point of the unit cube."""
         numbers = zip(self.spreads.items(), self.nominal, share, strict=True)
         return {number: spread.value(value, part) for (number, spread), value, part in numbers}
@@ -50,7 +50,8 @@ class Numbers:
 class Calibration:
     """Designs so far, at points of the unit cube, with their simulated values at all measured points.
 
-    `measurements`: by name; `simulated`: infinite where a run diverged or could not be done.
+    `measurements`: by name; `simulated`: infinite where a run diverged or could not be done; `predicted`: values and deviations
+    that surrogates gave the designs of all rounds but the first before they were run.
     """
 
     measurements: Mapping[str, Measurement]
@@ -58,13 +59,14 @@ class Calibration:
     run_all: RunAll
     cube: list[tuple[float, ...]] = field(default_factory=list)
     simulated: list[np.ndarray] = field(default_factory=list)
+    predicted: list[np.ndarray] = field(default_factory=list)
 
     def run(self, budget: Sequence[int], simulate: Simulate, tell: Callable[[str], None]) -> None:
         """Simulate designs, of each round so many."""
         for number, count in enumerate(budget):
             tell(f"calibrate: round {number}, {count} designs" + (f"; {self.told}" if self.cube else ""))
             new = self._next(count)
-            named = {f"c{len(self.cube) + place:04d}": self.numbers.at(point) for place, point in enumerate(new)}
+            named = {f"c{len(self.cube) + place:04d}": self.numbers.values(point) for place, point in enumerate(new)}
             for point, gave in zip(new, simulate(named), strict=True):
                 lost = {name: [inf] * len(each.points.values) for name, each in self.measurements.items()}
                 values = lost if isinstance(gave, str) else gave
@@ -122,13 +124,10 @@ class Calibration:
             for column, known in zip(simulated.T, done.T, strict=True)
         ]
         fits = tuple(self.run_all(calls, "surrogates"))
-        left_out = np.full((2, *simulated.shape), nan)
-        for place, (surrogate, known) in enumerate(zip(fits, done.T, strict=True)):
-            left_out[:, known, place] = surrogate.errors_left_out()
         # the last designs lie where the measurements leave most possible
-        errors, sure = left_out[:, -_LATER:]
-        chance = fit_chance(cube, done.all(axis=1), self.numbers.seed)
-        return Likelihood(fits, values, deviations, chance, (errors, sure))
+        means, sure = np.array(self.predicted[-_LATER:]).reshape(-1, 2, len(values)).swapaxes(0, 1)
+        errors = np.where(done, simulated, nan)[len(simulated) - len(means) :] - means
+        return Likelihood(fits, values, deviations, fit_chance(cube, done.all(axis=1), self.numbers.seed), (errors, sure))
 
     def posterior(self) -> tuple[Likelihood, np.ndarray, np.ndarray]:
         """The likelihood, draws over the unit cube and the logarithm of the likelihood there, the most likely first."""
@@ -147,10 +146,7 @@ class Calibration:
             Design(f"{place}", point, (misfit,), (nan,), ())
             for place, (point, misfit) in enumerate(zip(self.cube, self.misfits.tolist(), strict=True))
         ]
-        chosen = [*propose(variables, tried, 1, seed)]
-        if count == 1:
-            return chosen
-        likelihood = self.likelihood()
+        chosen, likelihood = [*propose(variables, tried, 1, seed)], self.likelihood()
         cube, _ = draws(likelihood.log, numbers, _ROUND_DRAWS, seed + len(self.cube))
         _, deviations = likelihood.residuals(cube)
         unknown = np.log(deviations / likelihood.deviations[:, None]).sum(axis=0)
@@ -160,4 +156,5 @@ class Calibration:
                 chosen.append(tuple(cube[place].tolist()))
         # where all draws are near to designs, any of them
         chosen += [tuple(point) for point in cube[: count - len(chosen)].tolist()]
+        self.predicted += list(np.stack(likelihood.predicted(np.array(chosen))).transpose(2, 0, 1))
         return chosen

@@ -95,7 +95,7 @@ def read_points(file: Path, reading: Reading, *, asked: bool = False) -> tuple[P
     if sigma is None and reading.percent is None:
         raise MeasurementError("uncertainty_percent", "found neither it nor a column 'uncertainty'; allowed: one of them")
     if _TIME in numbers:
-        return _of_time_signal(numbers, reading), ()
+        return _signal_amplitudes(numbers, reading), ()
     if _SPEED not in numbers:
         if not np.isfinite(reading.speed):
             raise MeasurementError("speed_rad_s", f"found no column with a speed, in rad/s or rpm, among {_header(table)}")
@@ -201,26 +201,27 @@ def _deviations(numbers: Mapping[str, np.ndarray], reading: Reading) -> np.ndarr
 def _over_speeds(numbers: Mapping[str, np.ndarray], reading: Reading, missing: int) -> tuple[Points, tuple[float, ...]]:
     order = np.argsort(numbers[_SPEED], kind="stable")
     speeds, values, deviations = (part[order] for part in (numbers[_SPEED], numbers["value"], _deviations(numbers, reading)))
-    first = np.append(True, np.diff(speeds) > 0.0)
-    if not first.all():
+    is_new = np.append(True, np.diff(speeds) > 0.0)
+    if not is_new.all():
         # a speed that was measured several times has the mean of its values
-        groups, counts = np.cumsum(first) - 1, np.bincount(np.cumsum(first) - 1)
+        groups, counts = np.cumsum(is_new) - 1, np.bincount(np.cumsum(is_new) - 1)
         values = np.bincount(groups, values) / counts
         deviations = np.sqrt(np.bincount(groups, deviations**2)) / counts
-        speeds = speeds[first]
+        speeds = speeds[is_new]
     kept = np.unique(np.append(np.linspace(0, len(speeds) - 1, min(MOST_SPEEDS, len(speeds))).astype(int), values.argmax()))
     speeds, values, deviations = speeds[kept], values[kept], deviations[kept]
     dropped = missing + len(order) - len(kept)
     if reading.first_above is not None:
-        at = first_speed_above(speeds, values, reading.first_above)
-        if not np.isfinite(at) or at == speeds[0]:
+        first = first_speed_above(speeds, values, reading.first_above)
+        if not np.isfinite(first) or first == speeds[0]:
             largest = f"values from {values.min():g} to {values.max():g}"
             raise MeasurementError("first_above", f"found {largest}; allowed: a limit that they pass after the first speed")
-        width = float(np.diff(speeds)[max(int(np.searchsorted(speeds, at)) - 1, 0)])
+        width = float(np.diff(speeds)[max(int(np.searchsorted(speeds, first)) - 1, 0)])
         # anywhere between two speeds: a uniform distribution
-        return Points.of(np.array(at), np.array([at]), np.array(width / np.sqrt(12.0)), dropped=dropped), tuple(speeds.tolist())
+        point = Points.collected(np.array(first), np.array([first]), np.array(width / np.sqrt(12.0)), dropped=dropped)
+        return point, tuple(speeds.tolist())
     order_of_all = np.array(reading.order if reading.statistic == ORDER else 0)
-    return Points.of(speeds, values, deviations, order_of_all, dropped=dropped), ()
+    return Points.collected(speeds, values, deviations, order_of_all, dropped=dropped), ()
 
 
 def _profile(numbers: Mapping[str, np.ndarray], reading: Reading) -> Points:
@@ -234,10 +235,10 @@ def _profile(numbers: Mapping[str, np.ndarray], reading: Reading) -> Points:
     means = [np.bincount(places, part) / counts for part in (values, deviations)]
     # an angle in the middle of its sector: a mean would be wrong at 0
     middles = (used + 0.5) * pi / 180.0 if len(angles) > 360 else angles
-    return Points.of(speeds, *means, angles=middles, dropped=len(angles) - len(used))
+    return Points.collected(speeds, *means, angles=middles, dropped=len(angles) - len(used))
 
 
-def _of_time_signal(numbers: Mapping[str, np.ndarray], reading: Reading) -> Points:
+def _signal_amplitudes(numbers: Mapping[str, np.ndarray], reading: Reading) -> Points:
     """Amplitudes of the engine orders of a time signal at one speed, by least squares, of those that stand out."""
     if reading.quantity in (WORN_DEPTH, TIP_TIMING):
         raise MeasurementError("file", f"found a column with times; allowed for {reading.quantity}: speeds or angles")
@@ -257,4 +258,4 @@ def _of_time_signal(numbers: Mapping[str, np.ndarray], reading: Reading) -> Poin
     if "sigma" in numbers:
         # of an amplitude from so many values
         kept["sigma"] = np.full(len(orders), float(np.sqrt(2.0 * np.mean(numbers["sigma"] ** 2) / len(times))))
-    return Points.of(np.array(speed), kept["value"], _deviations(kept, reading), orders)
+    return Points.collected(np.array(speed), kept["value"], _deviations(kept, reading), orders)

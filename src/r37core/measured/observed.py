@@ -1,4 +1,4 @@
-"""What an instrument would have measured of a simulated run."""
+"""Simulated runs as an instrument would have measured them."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace

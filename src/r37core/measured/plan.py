@@ -10,13 +10,14 @@ import numpy as np
 
 from r37core.base.io import Named
 from r37core.base.plain import to_plain
-from r37core.base.varied_number import BLADE, VariedNumber
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 from r37core.config import ConfigError, Settings
 from r37core.config.changed_numbers import ImpossibleValueError, changed_pair, check_known, nominal_value, scene_numbers
 from r37core.config.declaring import si_fields, si_form
 from r37core.config.messages import single_line
-from r37core.config.section import ExtensionSection
+from r37core.config.section import ExtensionSection, plain
 from r37core.config.settings import FARTHEST
+from r37core.config.spread import SpreadEntry
 from r37core.plans import paths
 from r37core.plans.carried import Carried
 from r37core.plans.extension import Extension, Figure, Panel
@@ -33,7 +34,9 @@ OBSERVED = "<results>/{blade}/{scene}/observed.json"
 TABLE = "<results>/measured.csv"
 DATASET, NUMBERS = "<results>/calibration.nc", "<results>/calibration.csv"
 FOLDER = "<results>/calibration"
-"""Folder of the draws, of scenes with the best values, and of the designs' files."""
+"""Folder of the draws, and of scenes with the best values."""
+
+_LENGTH = VariedNumber(SCENE, "lining.contact_length_m")
 
 
 @dataclass(frozen=True)
@@ -53,18 +56,18 @@ class Measured:
         measured = {(each.blade, each.scene) for each in self.settings.section(MEASURED)}
         return [pair for pair in self.settings.speed_plans if pair in measured]
 
-    def of(self, wildcards: Any) -> dict[str, Any]:
+    def plain_measurements(self, wildcards: Any) -> dict[str, Any]:
         """Measurements of a blade in a scene, as plain values."""
-        return to_plain(self.of_pair((wildcards.blade, wildcards.scene)))
+        return to_plain(self.pair_measurements((wildcards.blade, wildcards.scene)))
 
-    def of_pair(self, pair: Pair) -> dict[str, Measurement]:
+    def pair_measurements(self, pair: Pair) -> dict[str, Measurement]:
         """Measurements of a blade in a scene, by their names."""
         return {name: each for name, each in self.all.items() if (each.blade, each.scene) == pair}
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """Files that the runs of a blade and scene start from."""
         sweep, pair = Sweep(self.settings), (wildcards.blade, wildcards.scene)
-        quantities = [each.quantity for each in self.of_pair(pair).values()]
+        quantities = [each.quantity for each in self.pair_measurements(pair).values()]
         where = {"blade": wildcards.blade, "scene": wildcards.scene}
         files = {"prepared": paths.fill(paths.INTEGRATION_STAMP, **where), "model": sweep.contact_model(wildcards)}
         if TIP_TIMING in quantities:
@@ -142,9 +145,33 @@ class Calibrated:
         return section
 
     @cached_property
+    def spreads(self) -> dict[VariedNumber, SpreadEntry]:
+        """Distribution of each number before; that of the contact length as a rub test gives it."""
+        section, pairs = self.section, self.settings.made(Measured).pairs
+        linings = [lining for _, scene in pairs if (lining := self.settings.scenes[scene].scene.lining)]
+        if section.rub_test is None:
+            return section.spreads
+        # tables take pandas
+        from r37core.rub_tests.lining_fit import fit_lining
+        from r37core.rub_tests.rig_table import read_rub_test
+
+        document, path = self.settings.documents.config, (CALIBRATE.name, "rub_test")
+        if not linings or linings[0].published or _LENGTH in section.spreads:
+            allowed = f"a measured scene with a lining by contact_length_m, and no distribution of {_LENGTH.key}"
+            raise document.refusal(path, section.rub_test, allowed)
+        try:
+            length = fit_lining(read_rub_test(self.settings.root / section.rub_test, {}), linings[0]).contact_length
+        except ConfigError as error:
+            raise document.error(path, str(error)) from None
+        low, high = length.range_95
+        if not 0.0 < low < high < np.inf:
+            raise document.refusal(path, f"{section.rub_test}, which does not tell the contact length", "more points")
+        return {_LENGTH: SpreadEntry(log_between=[low, high]), **section.spreads}
+
+    @cached_property
     def nominal(self) -> list[float]:
         """Value in the configuration of each number, which all measured blades and scenes that have it share."""
-        numbers, settings, document = self.section.spreads, self.settings, self.settings.documents.config
+        numbers, settings, document = self.spreads, self.settings, self.settings.documents.config
         pairs, values = settings.made(Measured).pairs, []
         scenes = {scene: scene_numbers(settings.scene_designs.entries[scene]) for _, scene in pairs}
         check_known(numbers, (key for known in scenes.values() for key in known), document, (CALIBRATE.name,))
@@ -179,7 +206,8 @@ class Calibrated:
         measured, settings = self.settings.made(Measured), self.settings
         scenes = [settings.scene_designs.entries[scene].model_dump() for _, scene in measured.pairs]
         choices = [measured.choice(Named(blade=blade, scene=scene)) for blade, scene in measured.pairs]
-        return [scenes, choices, to_plain(measured.all), self.section.model_dump(), self.nominal]
+        spreads = {number.name: plain(spread) for number, spread in self.spreads.items()}
+        return [scenes, choices, to_plain(measured.all), self.section.model_dump(), spreads, self.nominal]
 
     def carried(self, wildcards: Any) -> Carried:
         """The settings, of which designs are made."""
@@ -187,7 +215,7 @@ class Calibrated:
 
     def ends(self) -> Iterator[tuple[VariedNumber, dict[VariedNumber, float]]]:
         """Each end of each number's range."""
-        for (number, spread), value in zip(self.section.spreads.items(), self.nominal, strict=True):
+        for (number, spread), value in zip(self.spreads.items(), self.nominal, strict=True):
             for end in spread.ends(value):
                 yield number, {number: end}
 
@@ -206,7 +234,7 @@ def can_be_calibrated(settings: Settings) -> None:
         raise document.refusal((CALIBRATE.name,), "no measurement", "measured: with a file beside it")
     measured = settings.made(Measured)
     strained = [each for each in measured.all.values() if each.quantity == STRAIN]
-    if strained and any(number.kind == BLADE for number in calibrated.section.spreads):
+    if strained and any(number.kind == BLADE for number in calibrated.spreads):
         raise document.refusal((CALIBRATE.name, "of_blades"), "numbers of blades with a gauge", "of_scenes, or no gauge")
     for blade, scene in measured.pairs:
         for number, values in calibrated.ends():
@@ -237,7 +265,9 @@ def simulations(settings: Settings) -> dict[Pair, int]:
     if settings.section(CALIBRATE) is None:
         return {}
     measured, runs = settings.made(Measured), settings.made(Calibrated).section.runs
-    speeds = {pair: {each for one in measured.of_pair(pair).values() for each in one.run_speeds} for pair in measured.pairs}
+    speeds = {
+        pair: {each for one in measured.pair_measurements(pair).values() for each in one.run_speeds} for pair in measured.pairs
+    }
     return {pair: runs * len(each) for pair, each in speeds.items()}
 
 

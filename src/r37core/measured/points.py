@@ -29,7 +29,7 @@ class Points:
     dropped: int = 0
 
     @classmethod
-    def of(
+    def collected(
         cls,
         speeds: np.ndarray,
         values: np.ndarray,
@@ -41,8 +41,8 @@ class Points:
     ) -> Self:
         """Points of arrays of shape (points,), or of one speed or order that all have."""
         columns = [np.broadcast_to(part, values.shape).tolist() for part in (speeds, values, deviations, orders)]
-        at, measured, sure, of = map(tuple, columns)
-        return cls(at, measured, sure, of, () if angles is None else tuple(angles.tolist()), dropped)
+        places, measured, sure, numbers = map(tuple, columns)
+        return cls(places, measured, sure, numbers, () if angles is None else tuple(angles.tolist()), dropped)
 
 
 @dataclass(frozen=True)
@@ -134,9 +134,9 @@ def turned_profile(wear: np.ndarray, points: Points) -> tuple[np.ndarray, str]:
 
     def best(sense: float) -> tuple[float, float, np.ndarray]:
         # linear interpolation on the circle, in all turns at once
-        at = ((sense * angles + turns[:, None]) % (2.0 * np.pi)) * len(wear) / (2.0 * np.pi) - 0.5
-        low = np.floor(at).astype(int)
-        profiles = (1.0 + low - at) * wear[low % len(wear)] + (at - low) * wear[(low + 1) % len(wear)]
+        places = ((sense * angles + turns[:, None]) % (2.0 * np.pi)) * len(wear) / (2.0 * np.pi) - 0.5
+        low = np.floor(places).astype(int)
+        profiles = (1.0 + low - places) * wear[low % len(wear)] + (places - low) * wear[(low + 1) % len(wear)]
         misfit = (((profiles - measured) / deviations) ** 2).sum(axis=1)
         turn = int(misfit.argmin())
         return float(misfit[turn]), float(turns[turn]), profiles[turn]

@@ -34,7 +34,7 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
     # the best first, and others evenly over the draws, which are sorted by their likelihood
     kept = np.unique(np.linspace(0, len(cube) - 1, min(count, len(cube))).astype(int))
     numbers, best = calibration.numbers, cube[:1]
-    values = np.array([list(numbers.at(share).values()) for share in cube])
+    values = np.array([list(numbers.values(share).values()) for share in cube])
     residuals, deviations = likelihood.residuals(best)
     elsewhere = likelihood.elsewhere(cube)
     points = [(each, place) for each in calibration.measurements.values() for place in range(len(each.points.values))]
@@ -52,7 +52,7 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
             "best": ("number", values[0], about("", "most likely values")),
             "quantile": (("end", "number"), np.quantile(values, list(ENDS.values()), axis=0), about("", "ends of ranges")),
             "width_share": ("number", _width(cube), about("1", "width of the 68% range over that before")),
-            "at_end": ("number", _at_end(cube), about("1", "1 where the 95% range reaches an end of the number's range")),
+            "at_end": ("number", _reaches_end(cube), about("1", "1 where the 95% range reaches an end of the number's range")),
             "correlation": (("number", "number_2"), np.atleast_2d(np.corrcoef(cube.T)), about("1", "correlation of the draws")),
             "measured": ("point", [each.points.values[place] for each, place in points], about("", "measured value")),
             "deviation": ("point", [each.points.deviations[place] for each, place in points], about("", "its deviation")),
@@ -60,7 +60,7 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
             "misfit": ("point", residuals[:, 0] / deviations[:, 0], about("1", "difference over uncertainty at the best")),
             "elsewhere": ("point", elsewhere, about("1", "probability that the point lies on another branch or is wrong")),
             "design_value": (
-                ("design", "number"), [list(numbers.at(each).values()) for each in calibration.cube], about("", "values")
+                ("design", "number"), [list(numbers.values(each).values()) for each in calibration.cube], about("", "values")
             ),
             "design_misfit": ("design", calibration.misfits, about("1", "misfit, NaN where a run diverged")),
         },
@@ -82,7 +82,7 @@ def _width(cube: np.ndarray) -> np.ndarray:
     return (high - low) / 0.68
 
 
-def _at_end(cube: np.ndarray) -> np.ndarray:
+def _reaches_end(cube: np.ndarray) -> np.ndarray:
     low, high = np.quantile(cube, (0.025, 0.975), axis=0)
     return ((low < _AT_END) | (high > 1.0 - _AT_END)).astype(int)
 
@@ -99,7 +99,7 @@ def number_table(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def notes(dataset: xr.Dataset, name: str) -> list[str]:
-    """What the measurements do not tell of a number."""
+    """Texts on a number that the measurements do not tell."""
     number, lines = dataset.sel(number=name), []
     if number["width_share"] > UNTOLD:
         lines.append("not told by these measurements")
@@ -129,5 +129,5 @@ def calibrated_scenes(settings: Settings, dataset: xr.Dataset, scenes: Sequence[
                 content = with_value(content, number.key, float(f"{value:.6g}"))
         entries[f"{scene}-calibrated"] = content
     others = [f"{number.key} {value:.6g}" for number, value in best.items() if number.kind != SCENE]
-    of_blades = f"# Numbers of the blade: {', '.join(others)}.\n" if others else ""
-    return f"# Most likely values of a calibration; calibration.csv has their ranges.\n{of_blades}{yaml_text(entries)}"
+    blade_line = f"# Numbers of the blade: {', '.join(others)}.\n" if others else ""
+    return f"# Most likely values of a calibration; calibration.csv has their ranges.\n{blade_line}{yaml_text(entries)}"

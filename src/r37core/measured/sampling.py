@@ -28,21 +28,22 @@ class Likelihood:
     """Likelihood of measured points over the unit cube, in which the numbers' distributions are uniform.
 
     `fits`: a surrogate of each point's value; `measured` and `deviations`, shape (points,), as the surrogates have them;
-    `buildable`: probability that a simulation completes. `left_out`: error of each surrogate at designs that are left out, and
-    its deviation there, shape (designs, points), NaN where a run diverged.
+    `buildable`: probability that a simulation completes. `errors`: of the surrogates that proposed a design, there, and the
+    deviations that they had, shape (designs, points), NaN where the run diverged.
     """
 
     fits: tuple[Fit, ...]
     measured: np.ndarray
     deviations: np.ndarray
     buildable: Callable[[np.ndarray], np.ndarray]
-    left_out: tuple[np.ndarray, np.ndarray]
+    errors: tuple[np.ndarray, np.ndarray]
 
     @cached_property
     def widening(self) -> np.ndarray:
-        """Factor of each surrogate's deviation, shape (points,): from 1 on, by what it errs at designs that are left out."""
-        ratios = np.divide(*self.left_out, out=np.zeros(self.left_out[0].shape), where=self.left_out[1] > 0.0)
-        return np.maximum(np.sqrt(np.nanmean(ratios**2, axis=0)), 1.0)
+        """Factor of each surrogate's deviation, shape (points,): from 1 on, by what surrogates erred at designs to come."""
+        errors, deviations = self.errors
+        ratios = np.divide(errors, deviations, out=np.zeros(errors.shape), where=deviations > 0.0)
+        return np.maximum(np.sqrt(np.nanmean([np.ones(ratios.shape[1]), *ratios**2], axis=0)), 1.0)
 
     @cached_property
     def power(self) -> float:
@@ -50,24 +51,28 @@ class Likelihood:
 
         The effective number n of points is N^2 over the sum of their squared correlations, less what chance gives these.
         """
-        errors, deviations = self.left_out
+        errors, deviations = self.errors
         scaled = np.nan_to_num(errors / np.hypot(self.deviations, self.widening * deviations))
-        count, designs = scaled.shape[1], len(scaled)
+        count, designs = scaled.shape[1], max(len(scaled), 1)
         products = scaled.T @ scaled / designs
         squares = (products**2).sum() - (np.diag(products) ** 2).sum()
-        by_chance = (np.outer(np.diag(products), np.diag(products)).sum() - (np.diag(products) ** 2).sum()) / designs
-        return count / (count + max(squares - by_chance, 0.0))
+        chance = (np.outer(np.diag(products), np.diag(products)).sum() - (np.diag(products) ** 2).sum()) / designs
+        return count / (count + max(squares - chance, 0.0))
 
     def residuals(self, cube: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Measured less simulated values, and their standard deviation, shape (points, draws).
 
         The deviation is that of the measurement, of the surrogate, and of chance, which the surrogate sees as noise.
         """
-        means, deviations = zip(*(fit.at(cube) for fit in self.fits), strict=True)
+        means, deviations = self.predicted(cube)
+        both = np.hypot(self.deviations[:, None], self.widening[:, None] * deviations)
+        return self.measured[:, None] - means, both
+
+    def predicted(self, cube: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Simulated values by the surrogates and their deviations, with that by chance, shape (points, draws)."""
+        means, deviations = (np.array(part) for part in zip(*(fit.at(cube) for fit in self.fits), strict=True))
         noise = np.array([fit.scale**2 * fit.noise for fit in self.fits])
-        surrogate = self.widening[:, None] ** 2 * (np.array(deviations) ** 2 + noise[:, None])
-        variance = self.deviations[:, None] ** 2 + surrogate
-        return self.measured[:, None] - np.array(means), np.sqrt(variance)
+        return means, np.sqrt(deviations**2 + noise[:, None])
 
     def branches(self, cube: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Logarithms of both parts of a point's likelihood, that it fits and that it lies elsewhere, (points, draws)."""

@@ -64,12 +64,16 @@ class CalibrateSection(Spreads):
     batch: int = Field(default=4, ge=1, le=500, description="Number of designs per round, run in parallel")
     draws: int = Field(default=256, ge=32, le=4096, description="Number of draws of the result, for tolerances.drawn_file")
     seed: int = Field(default=0, ge=0, le=2**31, description="Seed of designs and draws")
+    rub_test: FileName | LeftOut = left_out(
+        "CSV of a rub rig with depth, force, width and thickness: its 95% range of lining.contact_length_m counts"
+    )
 
     def _check(self) -> None:
-        if not self.spreads:
+        if not self.spreads and self.rub_test is None:
             raise refused((), "no number", "some under of_scenes or of_blades, each with its range")
-        if self.first > self.runs:
-            raise refused(("first",), f"{self.first}", f"at most runs ({self.runs})")
+        if 2 * self.first > self.runs:
+            # designs of later rounds say how wrong the surrogates are
+            raise refused(("first",), f"{self.first}", f"at most half of runs ({self.runs})")
 
 
 MEASURED: ExtensionSection[Any] = ExtensionSection(

@@ -72,15 +72,15 @@ def calibrate(input: Any, output: Any, params: Any) -> None:
     blades = {
         (blade, scene): observed_blade(
             files,
-            measured.of_pair((blade, scene)),
+            measured.pair_measurements((blade, scene)),
             settings.integration_choice(blade, scene, 0.0),
             settings.scenes[scene].tip_line,
             folder,
         )
         for (blade, scene), files in zip(measured.pairs, _lists(input), strict=True)
     }
-    numbers = Numbers(calibrated.section.spreads, calibrated.nominal, calibrated.section.seed)
-    every = {name: each for pair in measured.pairs for name, each in measured.of_pair(pair).items()}
+    numbers = Numbers(calibrated.spreads, calibrated.nominal, calibrated.section.seed)
+    every = {name: each for pair in measured.pairs for name, each in measured.pair_measurements(pair).items()}
     calibration = Calibration(every, numbers, run_all)
     calibration.run(calibrated.budget(), Evaluation(settings, blades, folder, run_all).simulate, JOB_NEWS.info)
     designs = json.dumps(to_plain([calibration.cube, [part.tolist() for part in calibration.simulated]]))

@@ -12,7 +12,6 @@ from types import ModuleType
 from typing import Any, Self
 
 import numpy as np
-import scipy
 
 from r37core.base.process_wide import ProcessWide, one_thread
 
@@ -73,17 +72,6 @@ class Fit:
         kept = np.arange(len(self.points)) != index
         rest = self._through(self.points[kept], self.numbers[kept], self.variances[kept])
         return float(rest.at(self.points[index : index + 1])[0][0])
-
-    def errors_left_out(self) -> tuple[np.ndarray, np.ndarray]:
-        """Error at each point of the process through all others, and the deviation that this one has there, shape (points,).
-
-        Source: Rasmussen and Williams (2006), equations 5.10 to 5.12.
-        """
-        if self.process is None:
-            return np.zeros(len(self.points)), np.zeros(len(self.points))
-        with _quiet():
-            inverse = np.diag(scipy.linalg.cho_solve((self.process.L_, True), np.eye(len(self.points))))
-        return self.scale * np.ravel(self.process.alpha_) / inverse, self.scale / np.sqrt(inverse)
 
     def _through(self, points: np.ndarray, numbers: np.ndarray, variances: np.ndarray) -> Self:
         """A process with the same hyperparameters through other numbers."""
