@@ -15,7 +15,9 @@ from r37core.exchange.refusal import ASKED, ImportRefused
 from r37core.exchange.sections.placed import (
     OWN,
     Meridians,
+    check_axis,
     check_curves,
+    check_ends,
     check_sections_sense,
     check_tip,
     fitting_end,
@@ -99,6 +101,8 @@ class SectionsEntry(ShapeKeys, Oriented):
         file = root / self.sections
         content, companion = read_section_file(file), companion_of(file)
         orientation, answers = self._orientation(content, companion)
+        if check_sense:
+            check_axis(content.sections, orientation)
         sections, lines = placed_sections(content, orientation)
         definition = SectionsDefinition(name, sections, pressure_forward=self.pressure_side == "forward")
         check_curves(definition, lines, check_sense)
@@ -115,7 +119,7 @@ class SectionsEntry(ShapeKeys, Oriented):
             raise ImportRefused(f"found '{ASKED}'; what fits: {'; '.join(answers.values())}", next(iter(answers)))
         hub, tip = (meridian_along(_meridian(key, ends[key], orientation, root), definition.curves) for key in ends)
         definition = replace(definition, hub=hub, tip=tip)
-        definition.places()
+        check_ends(definition, orientation, (key for key, end in ends.items() if isinstance(end, EndSurface)))
         check_tip(definition)
         if check_sense:
             check_sections_sense(definition)

@@ -1,7 +1,9 @@
 """Sections of a file in the blade's frame, checked, and what fits where an entry asks for it."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -23,8 +25,10 @@ OWN = "sections"
 _REVOLUTION = 1e-4
 """Distance (m) up to which the last section lies on a surface of revolution, as the tip of a mesh."""
 _MERIDIAN = 4
-"""Order of the polynomial through the meridian of the last section."""
+"""Order of the polynomial through the meridian of a section."""
 _SHARES = np.linspace(0.0, 1.0, 201)
+_REVOLVED, _ROUNDED, _NEARER = 1e-3, 1e-4, 20.0
+"""Shares of their length by which sections lie off surfaces of revolution about their axis; times that about another one."""
 
 Meridians = tuple[tuple[float, float], ...] | None
 Placed = tuple[tuple[tuple[float, float, float], ...], ...]
@@ -80,14 +84,50 @@ def check_curves(definition: SectionsDefinition, lines: Sequence[int], plausible
         check_succession(definition.curves, lines)
 
 
+def check_axis(sections: Sequence[FileSection], orientation: Orientation) -> None:
+    """Refuse a rotor axis where the sections lie on surfaces of revolution about another axis of the file; ImportRefused."""
+    point, axis = np.array(orientation.axis_point, dtype=float), orientation.rows[2]
+    own, *others = (_off_revolution(sections, point, each) for each in (axis, *np.eye(3)))
+    if min(others) < _REVOLVED and own > _NEARER * max(min(others), _ROUNDED):
+        fitting = np.eye(3)[np.argmin(others)]
+        raise ImportRefused(
+            f"found {_vector(orientation.rotor_axis)}; the sections lie on surfaces of revolution about {_vector(fitting)} "
+            f"or {_vector(-fitting)}, whichever points downstream; {UNLESS}",
+            "rotor_axis",
+        )
+
+
+def _off_revolution(sections: Sequence[FileSection], point: np.ndarray, axis: np.ndarray) -> float:
+    """Median distance of the sections from surfaces of revolution about an axis, as a share of their lengths."""
+    shares = []
+    for section in sections:
+        places = section.points - point
+        z = places @ axis
+        radius = np.linalg.norm(places - np.outer(z, axis), axis=1)
+        shares.append(_off_meridian(z, radius) / np.ptp(places, axis=0).max())
+    return float(np.median(shares))
+
+
+def check_ends(definition: SectionsDefinition, orientation: Orientation, entered: Iterable[str]) -> None:
+    """Refuse hub and tip outside the sections, with BladeShapeError; ImportRefused if `entered` ones fit a reversed axis."""
+    try:
+        definition.places()
+    except BladeShapeError as error:
+        turned: Any = {end: tuple((-z, radius) for z, radius in getattr(definition, end)) for end in entered}
+        with suppress(BladeShapeError):
+            replace(definition, **turned).places()
+            fitting = _vector(-np.array(orientation.rotor_axis))
+            raise ImportRefused(f"{error}, or rotor_axis: {fitting}, with which it fits", "rotor_axis") from None
+        raise
+
+
 def check_tip(definition: SectionsDefinition) -> None:
     """Refuse a last section that ends the blade and is not on a surface of revolution; BladeShapeError with a tip that fits."""
     if definition.tip is not None:
         return
     radius, z = _meridian_of(definition.curves[-1])
     # both sides of a surface of revolution share a meridian, which may be curved
-    off = np.abs(radius - np.polynomial.Polynomial.fit(z, radius, _MERIDIAN)(z)).max()
-    if off > _REVOLUTION:
+    if (off := _off_meridian(z, radius)) > _REVOLUTION:
         raise BladeShapeError(
             f"tip: the last section lies up to {1e3 * off:.3g} mm off every surface of revolution (allowed: "
             f"{1e3 * _REVOLUTION:g} mm); the casing cuts the blade with tip: {fitting_surface(definition.curves[-1])}"
@@ -159,6 +199,17 @@ def fitting_surface(curve: SectionCurve) -> str:
     line = np.polynomial.Polynomial.fit(z, radius, 1)
     ends = ", ".join(f"[{place:.7f}, {line(place):.7f}]" for place in (z.min(), z.max()))
     return f"{{ cone_zr_m: [{ends}] }}"
+
+
+def _vector(parts: Iterable[float]) -> str:
+    return f"[{', '.join(f'{part + 0.0:g}' for part in parts)}]"
+
+
+def _off_meridian(z: np.ndarray, radius: np.ndarray) -> float:
+    """Largest distance of points (z, r) from one smooth meridian."""
+    # the full answer comes without a warning of points that give no meridian
+    meridian, _ = np.polynomial.Polynomial.fit(z, radius, _MERIDIAN, full=True)
+    return float(np.abs(radius - meridian(z)).max())
 
 
 def _meridian_of(curve: SectionCurve) -> tuple[np.ndarray, np.ndarray]:
