@@ -35,10 +35,9 @@ _KINDS: dict[Any, str] = {BladeEntry: BLADE, SectionsEntry: BLADE, SceneEntry: S
 """Entries that may be a family, and what they are called."""
 
 _PROFILES = ("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *END_KEYS, *MATERIAL_KEYS)
-# sections have no arcs to change
 _SECTIONS = (*(key for key in _PROFILES if not key.startswith(SECTION_KEYS[1:])), "sweep_lean", "length_unit")
 VARIED: Mapping[Any, tuple[str, ...]] = {BladeEntry: _PROFILES, SectionsEntry: (*_SECTIONS, "hub.radius_m", "tip.radius_m")}
-"""Keys of blades with a number that may vary in a family, besides those in the rows of a table."""
+"""Keys of blades with a number that may vary in a family, besides those in rows of a table; sections have no arcs to change."""
 
 
 @dataclass(frozen=True)
@@ -190,5 +189,5 @@ def _check_varies(key: str, family: str, entry: Any, design: str, document: Docu
         if first in model.model_fields and kind != _kind(entry):
             search = f", in a search as scene.{key}" if model is SceneEntry else ""
             hint = f" (a number of a {kind} varies in {kind}s.yaml{search})"
-    found = f"design {design}: found {'' if first in keys else 'unknown key '}{single_line(key)}"
-    raise document.error((family,), f"{found}; allowed keys: {', '.join(known)}{hint}")
+    reason = f"design {design}: found {'' if first in keys else 'unknown key '}{single_line(key)}"
+    raise document.error((family,), f"{reason}; allowed keys: {', '.join(known)}{hint}")

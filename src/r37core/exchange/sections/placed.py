@@ -86,43 +86,32 @@ def check_curves(definition: SectionsDefinition, lines: Sequence[int], plausible
 
 def check_axis(sections: Sequence[FileSection], orientation: Orientation) -> None:
     """Refuse a rotor axis where the sections lie on surfaces of revolution about another axis of the file; ImportRefused."""
-    point, axis = np.array(orientation.axis_point, dtype=float), orientation.rows[2]
-    own, *others = (_off_revolution(sections, point, each) for each in (axis, *np.eye(3)))
+    points = [section.points - np.array(orientation.axis_point) for section in sections]
+    axes = np.array([orientation.rows[2], *np.eye(3)])
+    own, *others = (np.median([_off_revolution(places, axis) for places in points]) for axis in axes)
     if min(others) < _REVOLVED and own > _NEARER * max(min(others), _ROUNDED):
-        fitting = np.eye(3)[np.argmin(others)]
+        fitting = axes[1 + np.argmin(others)]
         raise ImportRefused(
-            f"found {_vector(orientation.rotor_axis)}; the sections lie on surfaces of revolution about {_vector(fitting)} "
-            f"or {_vector(-fitting)}, whichever points downstream; {UNLESS}",
+            f"found {list(orientation.rotor_axis)}; the sections lie on surfaces of revolution about {fitting.tolist()} "
+            f"or {(0.0 - fitting).tolist()}, whichever points downstream; {UNLESS}",
             "rotor_axis",
         )
 
 
-def _off_revolution(sections: Sequence[FileSection], point: np.ndarray, axis: np.ndarray) -> float:
-    """Median distance of the sections from surfaces of revolution about an axis, as a share of their lengths."""
-    shares = []
-    for section in sections:
-        places = section.points - point
-        z = places @ axis
-        radius = np.linalg.norm(places - np.outer(z, axis), axis=1)
-        shares.append(_off_meridian(z, radius) / np.ptp(places, axis=0).max())
-    return float(np.median(shares))
-
-
 def check_ends(definition: SectionsDefinition, orientation: Orientation, entered: Iterable[str]) -> None:
-    """Refuse hub and tip outside the sections, with BladeShapeError; ImportRefused if `entered` ones fit a reversed axis."""
+    """Refuse hub and tip outside the sections, and a last section that ends the blade on no surface of revolution.
+
+    Raises BladeShapeError with a tip that fits; ImportRefused where the `entered` ones of hub and tip fit a reversed axis.
+    """
     try:
         definition.places()
     except BladeShapeError as error:
         turned: Any = {end: tuple((-z, radius) for z, radius in getattr(definition, end)) for end in entered}
         with suppress(BladeShapeError):
             replace(definition, **turned).places()
-            fitting = _vector(-np.array(orientation.rotor_axis))
+            fitting = [0.0 - part for part in orientation.rotor_axis]
             raise ImportRefused(f"{error}, or rotor_axis: {fitting}, with which it fits", "rotor_axis") from None
         raise
-
-
-def check_tip(definition: SectionsDefinition) -> None:
-    """Refuse a last section that ends the blade and is not on a surface of revolution; BladeShapeError with a tip that fits."""
     if definition.tip is not None:
         return
     radius, z = _meridian_of(definition.curves[-1])
@@ -201,8 +190,10 @@ def fitting_surface(curve: SectionCurve) -> str:
     return f"{{ cone_zr_m: [{ends}] }}"
 
 
-def _vector(parts: Iterable[float]) -> str:
-    return f"[{', '.join(f'{part + 0.0:g}' for part in parts)}]"
+def _off_revolution(points: np.ndarray, axis: np.ndarray) -> float:
+    """Distance of points, shape (n, 3), from a surface of revolution about an axis, as a share of their extent."""
+    z = points @ axis
+    return _off_meridian(z, np.linalg.norm(points - np.outer(z, axis), axis=1)) / float(np.ptp(points, axis=0).max())
 
 
 def _off_meridian(z: np.ndarray, radius: np.ndarray) -> float:
