@@ -588,7 +588,10 @@ def test_a_flat_last_section_needs_a_tip(settings_with):
 def test_only_sections_on_surfaces_about_another_axis_refuse_the_axis(settings_with, turn):
     """A turn that the file and its directions share changes nothing, and sections by planes tell no axis."""
     axis, radial = np.eye(3, dtype=int)[turn].T[2].tolist(), np.eye(3, dtype=int)[turn].T[0].tolist()
-    flat = [np.stack([np.full(len(curve), curve[:, 0].max()), *curve.T[1:]], axis=1) for curve in fan()]
+    steep = stacked(
+        airfoil(thickness=0.05, camber=0.25), np.linspace(0.15, 0.45, 9), np.full(9, 0.12), np.full(9, np.radians(70.0))
+    )
+    flat = [np.stack([np.full(len(curve), curve[:, 0].max()), *curve.T[1:]], axis=1) for curve in steep]
     for curves, ends in ((fan(), {}), (flat, {"tip": {"radius_m": 0.44}})):
         text = csv_text([curve[:, turn] for curve in curves])
         assert settings_with(text, rotor_axis=axis, radial=radial, **ends).blades["Fan"].has_profiles
