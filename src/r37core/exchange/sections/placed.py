@@ -112,11 +112,8 @@ def check_ends(definition: SectionsDefinition, orientation: Orientation, entered
             fitting = [0.0 - part for part in orientation.rotor_axis]
             raise ImportRefused(f"{error}, or rotor_axis: {fitting}, with which it fits", "rotor_axis") from None
         raise
-    if definition.tip is not None:
-        return
-    radius, z = _meridian_of(definition.curves[-1])
     # both sides of a surface of revolution share a meridian, which may be curved
-    if (off := _off_meridian(z, radius)) > _REVOLUTION:
+    if definition.tip is None and (off := _off_meridian(*_meridian_of(definition.curves[-1]))) > _REVOLUTION:
         raise BladeShapeError(
             f"tip: the last section lies up to {1e3 * off:.3g} mm off every surface of revolution (allowed: "
             f"{1e3 * _REVOLUTION:g} mm); the casing cuts the blade with tip: {fitting_surface(definition.curves[-1])}"
@@ -193,11 +190,11 @@ def fitting_surface(curve: SectionCurve) -> str:
 def _off_revolution(points: np.ndarray, axis: np.ndarray) -> float:
     """Distance of points, shape (n, 3), from a surface of revolution about an axis, as a share of their extent."""
     z = points @ axis
-    return _off_meridian(z, np.linalg.norm(points - np.outer(z, axis), axis=1)) / float(np.ptp(points, axis=0).max())
+    return _off_meridian(np.linalg.norm(points - np.outer(z, axis), axis=1), z) / float(np.ptp(points, axis=0).max())
 
 
-def _off_meridian(z: np.ndarray, radius: np.ndarray) -> float:
-    """Largest distance of points (z, r) from one smooth meridian."""
+def _off_meridian(radius: np.ndarray, z: np.ndarray) -> float:
+    """Largest distance of points (r, z) from one smooth meridian."""
     # the full answer comes without a warning of points that give no meridian
     meridian, _ = np.polynomial.Polynomial.fit(z, radius, _MERIDIAN, full=True)
     return float(np.abs(radius - meridian(z)).max())
