@@ -165,7 +165,7 @@ def test_a_short_run_fails_nothing_clearly(lined):
 
 def test_other_friction_and_step_are_tried_closest_to_the_limit(lined, monkeypatch):
     monkeypatch.setattr(further_runs, "MOST_NEAR", 1)
-    monkeypatch.setattr(further_runs, "closeness", lambda _, of: -np.abs(of.speeds - 1302.5))
+    monkeypatch.setattr(further_runs.judging, "closeness", lambda _, of: -np.abs(of.speeds - 1302.5))
     found = dict(looks_of(lined, NEEDS, evidence()))
     assert all(found[name]["speed"].values.tolist() == [1302.5] for name in (MORE_FRICTION, LESS_FRICTION, HALF_STEP))
 
@@ -173,18 +173,22 @@ def test_other_friction_and_step_are_tried_closest_to_the_limit(lined, monkeypat
 def test_large_changes_are_tried_where_runs_fail_or_nearly_do(lined, monkeypatch):
     """All speeds that fail, or the worst where that still fails; else the nearest to the limit; nothing else of what fails."""
     monkeypatch.setattr(further_runs, "MOST_NEAR", 1)
-    monkeypatch.setattr(further_runs, "nearness", lambda _, of: 1.0 - 1e-3 * (of.speeds - 1302.5))
+    monkeypatch.setattr(further_runs.judging, "nearness", lambda _, of: 1.0 - 1e-3 * (of.speeds - 1302.5))
     found = dict(looks_of(lined, NEEDS, evidence(used=4e-3, speeds=(1290.0, 1302.0, 1305.0, 1320.0))))
     tried = {name: runs["speed"].values.tolist() for name, runs in found.items()}
     assert tried == {name: [1302.0] for name in LARGE_CHANGES if name != SLOWEST_RISE}
     # the first that still fails ends it
     monkeypatch.setattr(
-        further_runs, "nearness", lambda _, of: 1.0 - 1e-3 * (of.speeds - 1308.5) - (of.speeds < 1304.0) * (len(of.speeds) == 1)
+        further_runs.judging,
+        "nearness",
+        lambda _, of: 1.0 - 1e-3 * (of.speeds - 1308.5) - (of.speeds < 1304.0) * (len(of.speeds) == 1),
     )
     found = dict(looks_of(lined, NEEDS, evidence(used=4e-3, speeds=(1290.0, 1302.0, 1305.0, 1308.0, 1320.0))))
     assert found[FAST_RISE]["speed"].values.tolist() == [1302.0, 1305.0]
     # of what fails the slowest rise is not tried
-    monkeypatch.setattr(further_runs, "nearness", lambda _, of: (1.0 - 1e-3 * (of.speeds - 1302.5)) * (len(of.speeds) > 1))
+    monkeypatch.setattr(
+        further_runs.judging, "nearness", lambda _, of: (1.0 - 1e-3 * (of.speeds - 1302.5)) * (len(of.speeds) > 1)
+    )
     found = dict(looks_of(lined, NEEDS, evidence()))
     assert all(found[name]["speed"].values.tolist() == [1300.0, 1302.5] for name in LARGE_CHANGES if name in found)
 
@@ -217,8 +221,8 @@ def test_half_the_friction_is_tried_of_the_run_that_diverged_soonest(lined):
 
 def test_a_length_that_fails_is_tried_at_all_speeds(lined, monkeypatch):
     """A speed that stays above yield says nothing of the length."""
-    monkeypatch.setattr(further_runs, "nearness", lambda _, of: np.full(len(of.speeds), 1.2))
-    monkeypatch.setattr(further_runs, "fails_clearly", lambda *_: ["above_yield"])
+    monkeypatch.setattr(further_runs.judging, "nearness", lambda _, of: np.full(len(of.speeds), 1.2))
+    monkeypatch.setattr(further_runs.judging, "fails_clearly", lambda *_: ["above_yield"])
     needs = {length: Requirements(above_yield=length) for length in (0.0, 15.0)}
     found = {length: dict(looks_of(lined, need, evidence())) for length, need in needs.items()}
     assert {length: runs[FAST_RISE].sizes["speed"] for length, runs in found.items()} == {0.0: 1, 15.0: 1}
@@ -234,7 +238,7 @@ def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
     assert dict(looks_of(lined, NEEDS, evidence().replaced(quiet))) == {}
     assert joined_looks({}).sizes == {"look": 0} and looks_in(joined_looks({})) == {}
     # also where the runs from rest show it
-    monkeypatch.setattr(further_runs, "fails_clearly", lambda _, of: len(of.speeds) == 5)
+    monkeypatch.setattr(further_runs.judging, "fails_clearly", lambda _, of: len(of.speeds) == 5)
     assert tuple(dict(looks_of(lined, NEEDS, evidence()))) == (REST,)
 
 

@@ -46,7 +46,7 @@ def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: P
 
     Returns:
         `frequency` (Hz), shape (mode, speed). `crossing_speed` (rad/s), shape (mode, engine_order), NaN without a crossing.
-        `dynamic_clearance` (m), shape (mode, tangential_displacement).
+        `dynamic_clearance` (m), shape (mode, tangential_displacement). `mode`: 1B, 1T, 2B, then 4, 5, ... by frequency.
 
     Examples:
         >>> diagram = r37.campbell("Ref", fidelity="draft")

@@ -17,6 +17,7 @@ from r37core.blade.profile_tables import check_sweep
 from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
 
+from . import shape_keys
 from .blade_sections import MaterialSection
 from .blades import BladeEntry, BladeSettings
 from .declaring import si_fields
@@ -24,17 +25,6 @@ from .document import Document
 from .messages import did_you_mean, explain_all, single_line
 from .scenes import SceneEntry
 from .section import Section, plain
-from .shape_keys import (
-    END_KEYS,
-    SECTION_KEYS,
-    SHARES,
-    ShapeKeys,
-    SweepLean,
-    changed_keys,
-    neutral_value,
-    section_laws,
-    shape_by_laws,
-)
 from .varied import FAMILY_KEYS
 
 E = TypeVar("E", bound=Section)
@@ -48,7 +38,7 @@ MATERIAL_KEYS = tuple(_MATERIAL + key for key in MaterialSection.model_fields)
 _LINE = ("sweep_cm", "lean_deg")
 """Sweep and lean that are added at the tip, and below in proportion to the span."""
 
-BLADE_KEYS = (*MATERIAL_KEYS, *SHARES, *_LINE, *SECTION_KEYS, *END_KEYS)
+BLADE_KEYS = (*MATERIAL_KEYS, *shape_keys.SHARES, *_LINE, *shape_keys.SECTION_KEYS, *shape_keys.END_KEYS)
 """Numbers of a blade that spread: those of an entry that starts from the blade, and _LINE."""
 
 _ON_TOP = BladeEntry(base="blade")
@@ -79,13 +69,13 @@ def blade_number(blade: BladeSettings, key: str) -> float | None:
         value = math.inf if blade.material is None else getattr(blade.material, si_name(key.removeprefix(_MATERIAL))[0])
         return value if math.isfinite(value) else None
     shape = blade.definition
-    if not isinstance(shape, Shape) or (key in SHARES and shape.stacking is None):
+    if not isinstance(shape, Shape) or (key in shape_keys.SHARES and shape.stacking is None):
         return None
-    if key in (*SECTION_KEYS, *END_KEYS) and si_name(key.split(".")[0])[0] not in shape.changes:
+    if key in (*shape_keys.SECTION_KEYS, *shape_keys.END_KEYS) and si_name(key.split(".")[0])[0] not in shape.changes:
         return None
     if key in ("sweep_cm", "lean_deg") and shape.chordwise_sweep_angle is not None:
         raise ValueError(f"{key} with {shape.name}, whose sweep is chordwise")
-    return neutral_value(key)
+    return shape_keys.neutral_value(key)
 
 
 def nominal_value(number: VariedNumber, blade: BladeSettings, scene: Mapping[str, float]) -> float | None:
@@ -121,7 +111,7 @@ def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSe
     """The blade with values of BLADE_KEYS replaced. Raises ImpossibleValueError."""
     shape = [key for key in changes if key not in MATERIAL_KEYS]
     # as entries of two blades, each with the one before as its base: an entry has a number over the whole span or at its ends
-    ends = {key: changes[key] for key in shape if key in END_KEYS}
+    ends = {key: changes[key] for key in shape if key in shape_keys.END_KEYS}
     entry = entry_with(_ON_TOP, {key: value for key, value in changes.items() if key not in (*ends, *_LINE)})
     changed, material = blade, si_fields(entry.material)
     if material and blade.material is not None:
@@ -149,22 +139,22 @@ def changed_pair(blade: BladeSettings, scene: SceneEntry, values: Mapping[Varied
     return changed_blade(blade, blade_values), entry_with(scene, scene_values).scene()
 
 
-def _changed_shape(shape: Shape, entries: Iterable[ShapeKeys], keys: Iterable[str]) -> Shape:
+def _changed_shape(shape: Shape, entries: Iterable[shape_keys.ShapeKeys], keys: Iterable[str]) -> Shape:
     """The shape with changes of entries on top of each other, for which `keys` are to blame."""
     try:
         for entry in entries:
-            shape = shape_by_laws(shape, section_laws(entry))
+            shape = shape_keys.shape_by_laws(shape, shape_keys.section_laws(entry))
     except SectionChangeError as error:
-        blamed = [key for key in keys if key.split(".")[0] in changed_keys(error)]
+        blamed = [key for key in keys if key.split(".")[0] in shape_keys.changed_keys(error)]
         text = str(error) if len(blamed) == 1 else f"{' and '.join(blamed)}: {error}"
         raise ImpossibleValueError(BLADE, blamed[0], text) from None
     return shape
 
 
-def _changed_stacking(stacking: Stacking, entry: ShapeKeys, changes: Mapping[str, float]) -> Stacking:
+def _changed_stacking(stacking: Stacking, entry: shape_keys.ShapeKeys, changes: Mapping[str, float]) -> Stacking:
     """The table of sweep and lean with shares of it kept, and a straight line over the span added."""
     sweep_cm, lean_deg = (changes.get(key, 0.0) for key in _LINE)
-    _checked(SweepLean, {"span_percent": 100.0, "sweep_cm": sweep_cm, "lean_deg": lean_deg}, BLADE)
+    _checked(shape_keys.SweepLean, {"span_percent": 100.0, "sweep_cm": sweep_cm, "lean_deg": lean_deg}, BLADE)
     if stacking is None and not (sweep_cm or lean_deg):
         return None
     rows, sweep, lean = stacking or ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), 0.01 * sweep_cm, math.radians(lean_deg)
@@ -172,7 +162,7 @@ def _changed_stacking(stacking: Stacking, entry: ShapeKeys, changes: Mapping[str
     changed = tuple((span, kept * back + span * sweep, kept_lean * side + span * lean) for span, back, side in rows)
     for span, back, side in changed:
         row = {"span_percent": 100.0 * span, "sweep_cm": 100.0 * back, "lean_deg": math.degrees(side)}
-        _checked(SweepLean, row, BLADE, "table: ")
+        _checked(shape_keys.SweepLean, row, BLADE, "table: ")
     return changed
 
 

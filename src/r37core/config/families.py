@@ -34,8 +34,10 @@ E = TypeVar("E", bound=AnyEntry)
 _KINDS: dict[Any, str] = {BladeEntry: BLADE, SectionsEntry: BLADE, SceneEntry: SCENE}
 """Entries that may be a family, and what they are called."""
 
-VARIED = ("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *END_KEYS, *MATERIAL_KEYS)
-"""Keys with a number that may vary in a family, besides those in the rows of a table."""
+_PROFILES = ("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *END_KEYS, *MATERIAL_KEYS)
+_SECTIONS = (*(key for key in _PROFILES if not key.startswith(SECTION_KEYS[1:])), "sweep_lean", "length_unit")
+VARIED: Mapping[Any, tuple[str, ...]] = {BladeEntry: _PROFILES, SectionsEntry: (*_SECTIONS, "hub.radius_m", "tip.radius_m")}
+"""Keys of blades with a number that may vary in a family, besides those in rows of a table; sections have no arcs to change."""
 
 
 @dataclass(frozen=True)
@@ -177,15 +179,15 @@ def design_entry(family: str, entry: E, values: Mapping[str, float], design: str
 
 def _check_varies(key: str, family: str, entry: Any, design: str, document: Document) -> None:
     """ConfigError for a key that does not begin like one that an entry may vary."""
-    first = key.split(".")[0]
-    if first in type(entry).model_fields and first not in FAMILY_KEYS:
+    first, keys = key.split(".")[0], type(entry).model_fields
+    known = VARIED.get(type(entry)) or tuple(numbers_in(plain(entry)))
+    vary = {name.split(".")[0] for name in known} if isinstance(entry, SectionsEntry) else keys
+    if first in vary and first not in FAMILY_KEYS:
         return
-    known = VARIED if isinstance(entry, BladeEntry | SectionsEntry) else tuple(numbers_in(plain(entry)))
     hint = did_you_mean(key, known)
     for model, kind in _KINDS.items():
         if first in model.model_fields and kind != _kind(entry):
             search = f", in a search as scene.{key}" if model is SceneEntry else ""
             hint = f" (a number of a {kind} varies in {kind}s.yaml{search})"
-    raise document.error(
-        (family,), f"design {design}: found unknown key {single_line(key)}; allowed keys: {', '.join(known)}{hint}"
-    )
+    reason = f"design {design}: found {'' if first in keys else 'unknown key '}{single_line(key)}"
+    raise document.error((family,), f"{reason}; allowed keys: {', '.join(known)}{hint}")

@@ -69,9 +69,11 @@ def refused(at: KeyPath, value: str, allowed: str) -> PydanticCustomError:
 
 
 def _unique(values: list[T]) -> list[T]:
+    seen: set[T] = set()
     for number, value in enumerate(values):
-        if value in values[:number]:
+        if value in seen:
             raise refused((number,), f"{value!r} twice", "each once")
+        seen.add(value)
     return values
 
 

@@ -12,19 +12,8 @@ from r37core.base.io import TextFileError
 from r37core.blade.definition import SectionsDefinition
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ASKED, ImportRefused
-from r37core.exchange.sections.placed import (
-    OWN,
-    Meridians,
-    check_curves,
-    check_sections_sense,
-    check_tip,
-    fitting_end,
-    fitting_rotation,
-    fitting_unit,
-    meridian_along,
-    placed_meridian,
-    placed_sections,
-)
+from r37core.exchange.sections import placed
+from r37core.exchange.sections.placed import OWN, Meridians
 from r37core.exchange.sections.section_file import SectionFile, read_meridian, read_section_file
 from r37core.exchange.sections.turbogrid import check_companion, companion_of, meridian_next_to
 
@@ -99,9 +88,11 @@ class SectionsEntry(ShapeKeys, Oriented):
         file = root / self.sections
         content, companion = read_section_file(file), companion_of(file)
         orientation, answers = self._orientation(content, companion)
-        sections, lines = placed_sections(content, orientation)
+        if check_sense:
+            placed.check_axis(content.sections, orientation)
+        sections, lines = placed.placed_sections(content, orientation)
         definition = SectionsDefinition(name, sections, pressure_forward=self.pressure_side == "forward")
-        check_curves(definition, lines, check_sense)
+        placed.check_curves(definition, lines, check_sense)
         ends: dict[str, Any] = {}
         for key, included, number in (("hub", content.hub, 0), ("tip", content.tip, -1)):
             end = getattr(self, key)
@@ -109,16 +100,15 @@ class SectionsEntry(ShapeKeys, Oriented):
                 beside = None if included is not None else meridian_next_to(file, key)
                 end = str(Path(self.sections).with_name(beside)) if beside else included
             if getattr(self, key) == ASKED:
-                answers[key] = f"{key}: {fitting_end(end, definition.curves[number])}"
+                answers[key] = f"{key}: {placed.fitting_end(end, definition.curves[number])}"
             ends[key] = end
         if answers:
             raise ImportRefused(f"found '{ASKED}'; what fits: {'; '.join(answers.values())}", next(iter(answers)))
-        hub, tip = (meridian_along(_meridian(key, ends[key], orientation, root), definition.curves) for key in ends)
+        hub, tip = (placed.meridian_along(_meridian(key, ends[key], orientation, root), definition.curves) for key in ends)
         definition = replace(definition, hub=hub, tip=tip)
-        definition.places()
-        check_tip(definition)
+        placed.check_ends(definition, orientation, (key for key, end in ends.items() if isinstance(end, EndSurface)))
         if check_sense:
-            check_sections_sense(definition)
+            placed.check_sections_sense(definition)
         return definition
 
     def _orientation(self, content: SectionFile, companion: Mapping[str, str]) -> tuple[Orientation, dict[str, str]]:
@@ -134,11 +124,11 @@ class SectionsEntry(ShapeKeys, Oriented):
             rotation="positive" if self.rotation == ASKED else self.rotation,
         )
         if self.length_unit == ASKED:
-            unit, answers["length_unit"] = fitting_unit(content, known, companion.get("geometry units", "").lower())
+            unit, answers["length_unit"] = placed.fitting_unit(content, known, companion.get("geometry units", "").lower())
             known = replace(known, length_unit=unit)
         check_companion(companion, known)
         if self.rotation == ASKED:
-            rotation, answers["rotation"] = fitting_rotation(content.sections, known)
+            rotation, answers["rotation"] = placed.fitting_rotation(content.sections, known)
             known = replace(known, rotation=rotation)
         return known, answers
 
@@ -150,7 +140,7 @@ def _meridian(key: str, end: EndSurface | np.ndarray | str | None, orientation: 
     if end is None or (isinstance(end, str) and end == OWN):
         return None
     try:
-        return placed_meridian(read_meridian(root / end) if isinstance(end, str) else end, orientation)
+        return placed.placed_meridian(read_meridian(root / end) if isinstance(end, str) else end, orientation)
     except TextFileError as error:
         raise ImportRefused(f"{end}:{error.line}: {error.reason}", key) from None
     except OSError as error:

@@ -77,7 +77,9 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     rows = rows.assign(frequency=rows["frequency"].fillna(strip).clip(upper=highest), higher=rows["frequency"] > highest)
     sized_by_motion = rows["unit"] == "mm"
     rows["above"] = rows["above"].mask(sized_by_motion, MOST)
-    rows["area"] = rows["above"].map({above: area for above, (_, area, *_) in _MARKS.items()}).fillna(_areas(rows))
+    rows["area"] = rows["above"].map({above: area for above, (_, area, *_) in _MARKS.items()})
+    # all large enough to be seen
+    rows["area"] = rows["area"].fillna(_LARGEST**2 * rows["size"] / rows["scale"]).fillna(0.0).clip(lower=4.0)
     with plt.rc_context(_LETTERS | {"axes.titlesize": 10}):
         size = (_WIDTH, 0.9 + len(scenes) * (3.0 if len(scenes) < 3 else 2.4))
         figure, grid = plt.subplots(len(scenes), 1, figsize=size, sharex=True, sharey=True, squeeze=False)
@@ -184,11 +186,6 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
 
 def _places(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
     return rows["peak_speed_rad_s"], rows["frequency"]
-
-
-def _areas(rows: pd.DataFrame) -> pd.Series:
-    """Areas (square points) of the circles, all large enough to be seen."""
-    return (_LARGEST**2 * rows["size"] / rows["scale"]).fillna(0.0).clip(lower=4.0)
 
 
 def _round(value: float) -> float:

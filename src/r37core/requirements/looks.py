@@ -32,27 +32,9 @@ from r37core.time_integration.simulate import TIP_POINTS, Simulation
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import numbers_of_run
 
+from . import judging
 from .choice import CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements
 from .evidence import HALF_FRICTION, OF_ALL, Evidence, peak_reach, soonest_divergence
-from .judging import (
-    CLEARLY,
-    COARSER_MESH,
-    DOWN,
-    FAST_RISE,
-    HALF_STEP,
-    HIGHEST_DAMPING,
-    LESS_FRICTION,
-    LOWEST_DAMPING,
-    MORE_FRICTION,
-    REST,
-    SLIGHTLY_MORE_FRICTION,
-    SLOW_RISE,
-    SLOWEST_RISE,
-    UP,
-    closeness,
-    fails_clearly,
-    nearness,
-)
 
 _MOST_PEAKS = 12
 """Peaks, the highest, about which speeds refine."""
@@ -60,7 +42,7 @@ _MOST_PEAKS = 12
 _LEAST_NEAR = 6
 """Speeds that are run with other friction and half the step where few come near to the limit."""
 
-_FRICTION = {MORE_FRICTION: 1.01, LESS_FRICTION: 0.99, SLIGHTLY_MORE_FRICTION: 1.001}
+_FRICTION = {judging.MORE_FRICTION: 1.01, judging.LESS_FRICTION: 0.99, judging.SLIGHTLY_MORE_FRICTION: 1.001}
 """Factors of the coefficient of friction."""
 
 
@@ -163,31 +145,31 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     """
     if not evidence.touches:
         return
-    if blade.choice.revolutions >= PUBLISHED_REVOLUTIONS and fails_clearly(requirements, evidence):
+    if blade.choice.revolutions >= PUBLISHED_REVOLUTIONS and judging.fails_clearly(requirements, evidence):
         yield from _large_changes(blade, requirements, evidence)
         return
     first, last = evidence.operating.first, evidence.operating.last
-    error = np.nan_to_num(evidence.error, nan=CLEARLY - 1.0)
+    error = np.nan_to_num(evidence.error, nan=judging.CLEARLY - 1.0)
     inside = [float(speed) for speed in evidence.speeds if first < speed < last]
     runs = blade.runs_from_rest(_closer([first, *inside, last], STEP))
-    while len(new := _speeds_about_peaks(runs["speed"].values, nearness(requirements, evidence.replaced(runs)), error)):
+    while len(new := _speeds_about_peaks(runs["speed"].values, judging.nearness(requirements, evidence.replaced(runs)), error)):
         runs = overlaid(runs, blade.runs_from_rest(new))
-    yield REST, runs
+    yield judging.REST, runs
     rest = evidence.replaced(runs)
     yield from _large_changes(blade, requirements, rest)
-    if fails_clearly(requirements, rest):
+    if judging.fails_clearly(requirements, rest):
         return
     carried = _closer([first, last], CARRIED_STEP)
-    yield UP, blade.carried(carried)
-    yield DOWN, blade.carried(carried[::-1])
-    close = closeness(requirements, rest)
+    yield judging.UP, blade.carried(carried)
+    yield judging.DOWN, blade.carried(carried[::-1])
+    close = judging.closeness(requirements, rest)
     near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[: _speeds_near(close)]]).tolist()
     for look, factor in _FRICTION.items():
         if scene := blade.scaled_friction(factor):
             yield look, blade.runs_from_rest(near, scene)
-    yield HALF_STEP, blade.runs_from_rest(near, time_step=0.5 * blade.long_choice.time_step)
+    yield judging.HALF_STEP, blade.runs_from_rest(near, time_step=0.5 * blade.long_choice.time_step)
     if blade.coarser:
-        yield COARSER_MESH, blade.coarser.runs_from_rest(near)
+        yield judging.COARSER_MESH, blade.coarser.runs_from_rest(near)
 
 
 def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
@@ -199,24 +181,24 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
     soonest = soonest_divergence(runs)["speed"].values.tolist()
     if soonest and (less := blade.scaled_friction(0.5)):
         yield HALF_FRICTION, blade.runs_from_rest(soonest, less)
-    near, scene = nearness(requirements, runs)[runs.operates], blade.rising_scene
+    near, scene = judging.nearness(requirements, runs)[runs.operates], blade.rising_scene
     count = max(_speeds_near(near), int(np.count_nonzero(near >= 1.0)))
     speeds = runs.response["speed"].values[runs.operates][np.argsort(-near, kind="stable")[:count]].tolist()
-    changes = {LOWEST_DAMPING: scene.damped("lowest"), HIGHEST_DAMPING: scene.damped("highest")}
+    changes = {judging.LOWEST_DAMPING: scene.damped("lowest"), judging.HIGHEST_DAMPING: scene.damped("highest")}
     fast = 0.1 * (scene.casing.rise_revolutions or 0.0)
-    rises = {FAST_RISE: fast, SLOW_RISE: float(PUBLISHED_REVOLUTIONS)}
+    rises = {judging.FAST_RISE: fast, judging.SLOW_RISE: float(PUBLISHED_REVOLUTIONS)}
     if near.max(initial=0.0) < 1.0:
         # it shows more than the others, which takes nothing from what fails
-        rises[SLOWEST_RISE] = float(LONGEST - PUBLISHED_REVOLUTIONS)
+        rises[judging.SLOWEST_RISE] = float(LONGEST - PUBLISHED_REVOLUTIONS)
     for look, revolutions in rises.items():
         changes[look] = replace(scene, casing=replace(scene.casing, rise_revolutions=revolutions))
     for look, changed in changes.items():
         if changed != scene and speeds:
             # what grows slowly may pass its largest motion before the end: the later half of the run counts
-            run = partial(blade.runs_from_rest, scene=changed, until_settled=look != SLOWEST_RISE)
+            run = partial(blade.runs_from_rest, scene=changed, until_settled=look != judging.SLOWEST_RISE)
             tried = speeds
             if near.max() >= 1.0 and not requirements.above_yield:
-                alone = (nearness(requirements, runs.replaced(run([speed]))).max() for speed in speeds)
+                alone = (judging.nearness(requirements, runs.replaced(run([speed]))).max() for speed in speeds)
                 tried = next((speeds[:count] for count, nearest in enumerate(alone, 1) if nearest >= 1.0), speeds)
             yield look, run(tried)
 

@@ -191,7 +191,8 @@ def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
     order of `rank_lowest`, then RANKED_BY, those than which no other of a group is surely better share its rank.
     """
     values = rows[[*_TOLD_APART, "diverged_runs"]].to_numpy(float)
-    within = np.column_stack([rows[[_within(name) for name in _TOLD_APART]].fillna(np.inf), np.zeros(len(rows))])
+    accuracies = [name.replace("_rad_s", "_within_rad_s") for name in _TOLD_APART]
+    within = np.column_stack([rows[accuracies].fillna(np.inf), np.zeros(len(rows))])
 
     def is_better(row: int, other: int) -> bool:
         apart = np.flatnonzero(np.abs(values[row] - values[other]) > np.hypot(within[row], within[other]))
@@ -208,11 +209,6 @@ def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
     # what is sure need not be in one order: of three each may be surely better than the next
     columns = {"rank": shared.clip(lowest, highest), "rank_lowest": lowest, "rank_highest": highest}
     return pd.DataFrame(columns, rows.index, dtype="Int64")
-
-
-def _within(column: str) -> str:
-    """Column of what a length is known within."""
-    return column.replace("_rad_s", "_within_rad_s")
 
 
 def _overall(table: pd.DataFrame) -> pd.DataFrame:

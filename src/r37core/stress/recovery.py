@@ -117,7 +117,7 @@ def _band(model: ReducedModel, region: StressRegion) -> tuple[np.ndarray, np.nda
     shapes = modes[:, frequencies <= 2.0 * np.pi * region.highest_frequency]
     if not shapes.size:
         raise ValueError(
-            f"no mode is below the highest frequency of a stress region ({region.description}); raise its highest_frequency_hz "
-            "in structure.stress_regions in config.yaml"
+            f"stress_regions: found highest_frequency_hz {region.highest_frequency:g} ({region.description}); "
+            f"allowed: more than the first mode's, {frequencies[0] / 2.0 / np.pi:.6g} Hz at rest"
         )
     return shapes.T @ model.mass, shapes

@@ -102,8 +102,8 @@ class SteppedBlade:
         below = int(np.count_nonzero(frequencies <= 2.0 * np.pi * self.grid.choice.highest_frequency))
         if below == 0:
             raise ValueError(
-                f"highest_frequency_hz: found {self.grid.choice.highest_frequency:g}; allowed: more than the first mode's, "
-                f"{frequencies[0] / 2.0 / np.pi:.6g} Hz at {self.grid.speed:g} rad/s"
+                f"time_integration.highest_frequency_hz of the fidelity level: found {self.grid.choice.highest_frequency:g}; "
+                f"allowed: more than the first mode's, {frequencies[0] / 2.0 / np.pi:.6g} Hz at {self.grid.speed:g} rad/s"
             )
         if not self.grid.choice.second_order:
             return below

@@ -1,7 +1,9 @@
 """Sections of a file in the blade's frame, checked, and what fits where an entry asks for it."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -23,8 +25,10 @@ OWN = "sections"
 _REVOLUTION = 1e-4
 """Distance (m) up to which the last section lies on a surface of revolution, as the tip of a mesh."""
 _MERIDIAN = 4
-"""Order of the polynomial through the meridian of the last section."""
+"""Order of the polynomial through the meridian of a section."""
 _SHARES = np.linspace(0.0, 1.0, 201)
+_REVOLVED, _ROUNDED, _NEARER = 1e-3, 1e-4, 20.0
+"""Shares of their length by which sections lie off surfaces of revolution about their axis; times that about another one."""
 
 Meridians = tuple[tuple[float, float], ...] | None
 Placed = tuple[tuple[tuple[float, float, float], ...], ...]
@@ -80,14 +84,36 @@ def check_curves(definition: SectionsDefinition, lines: Sequence[int], plausible
         check_succession(definition.curves, lines)
 
 
-def check_tip(definition: SectionsDefinition) -> None:
-    """Refuse a last section that ends the blade and is not on a surface of revolution; BladeShapeError with a tip that fits."""
-    if definition.tip is not None:
-        return
-    radius, z = _meridian_of(definition.curves[-1])
+def check_axis(sections: Sequence[FileSection], orientation: Orientation) -> None:
+    """Refuse a rotor axis where the sections lie on surfaces of revolution about another axis of the file; ImportRefused."""
+    points = [section.points - np.array(orientation.axis_point) for section in sections]
+    axes = np.array([orientation.rows[2], *np.eye(3)])
+    own, *others = (np.median([_off_revolution(places, axis) for places in points]) for axis in axes)
+    if min(others) < _REVOLVED and own > _NEARER * max(min(others), _ROUNDED):
+        fitting = axes[1 + np.argmin(others)]
+        raise ImportRefused(
+            f"found {list(orientation.rotor_axis)}; the sections lie on surfaces of revolution about {fitting.tolist()} "
+            f"or {(0.0 - fitting).tolist()}, whichever points downstream; {UNLESS}",
+            "rotor_axis",
+        )
+
+
+def check_ends(definition: SectionsDefinition, orientation: Orientation, entered: Iterable[str]) -> None:
+    """Refuse hub and tip outside the sections, and a last section that ends the blade on no surface of revolution.
+
+    Raises BladeShapeError with a tip that fits; ImportRefused where the `entered` ones of hub and tip fit a reversed axis.
+    """
+    try:
+        definition.places()
+    except BladeShapeError as error:
+        turned: Any = {end: tuple((-z, radius) for z, radius in getattr(definition, end)) for end in entered}
+        with suppress(BladeShapeError):
+            replace(definition, **turned).places()
+            fitting = [0.0 - part for part in orientation.rotor_axis]
+            raise ImportRefused(f"{error}, or rotor_axis: {fitting}, with which it fits", "rotor_axis") from None
+        raise
     # both sides of a surface of revolution share a meridian, which may be curved
-    off = np.abs(radius - np.polynomial.Polynomial.fit(z, radius, _MERIDIAN)(z)).max()
-    if off > _REVOLUTION:
+    if definition.tip is None and (off := _off_meridian(*_meridian_of(definition.curves[-1]))) > _REVOLUTION:
         raise BladeShapeError(
             f"tip: the last section lies up to {1e3 * off:.3g} mm off every surface of revolution (allowed: "
             f"{1e3 * _REVOLUTION:g} mm); the casing cuts the blade with tip: {fitting_surface(definition.curves[-1])}"
@@ -159,6 +185,19 @@ def fitting_surface(curve: SectionCurve) -> str:
     line = np.polynomial.Polynomial.fit(z, radius, 1)
     ends = ", ".join(f"[{place:.7f}, {line(place):.7f}]" for place in (z.min(), z.max()))
     return f"{{ cone_zr_m: [{ends}] }}"
+
+
+def _off_revolution(points: np.ndarray, axis: np.ndarray) -> float:
+    """Distance of points, shape (n, 3), from a surface of revolution about an axis, as a share of their extent."""
+    z = points @ axis
+    return _off_meridian(np.linalg.norm(points - np.outer(z, axis), axis=1), z) / float(np.ptp(points, axis=0).max())
+
+
+def _off_meridian(radius: np.ndarray, z: np.ndarray) -> float:
+    """Largest distance of points (r, z) from one smooth meridian."""
+    # the full answer comes without a warning of points that give no meridian
+    meridian, _ = np.polynomial.Polynomial.fit(z, radius, _MERIDIAN, full=True)
+    return float(np.abs(radius - meridian(z)).max())
 
 
 def _meridian_of(curve: SectionCurve) -> tuple[np.ndarray, np.ndarray]:
