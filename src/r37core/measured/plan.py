@@ -265,10 +265,8 @@ def simulations(settings: Settings) -> dict[Pair, int]:
     if settings.section(CALIBRATE) is None:
         return {}
     measured, runs = settings.made(Measured), settings.made(Calibrated).section.runs
-    speeds = {
-        pair: {each for one in measured.pair_measurements(pair).values() for each in one.run_speeds} for pair in measured.pairs
-    }
-    return {pair: runs * len(each) for pair, each in speeds.items()}
+    several = {pair: measured.pair_measurements(pair).values() for pair in measured.pairs}
+    return {pair: runs * len({speed for each in own for speed in each.run_speeds}) for pair, own in several.items()}
 
 
 MEASUREMENTS = Extension(

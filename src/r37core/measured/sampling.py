@@ -47,9 +47,10 @@ class Likelihood:
 
     @cached_property
     def power(self) -> float:
-        """Share of the points that count as independent: surrogates err together where the motion is on another branch.
+        """Power of the likelihood: surrogates err together where the motion is on another branch, and alike at near designs.
 
-        The effective number n of points is N^2 over the sum of their squared correlations, less what chance gives these.
+        The square of the share of points that are independent: N over the sum of their squared correlations, less what chance
+        gives these. Of the share itself the ranges were too narrow in twin experiments: 95% of them held 81% of hidden values.
         """
         errors, deviations = self.errors
         scaled = np.nan_to_num(errors / np.hypot(self.deviations, self.widening * deviations))
@@ -57,7 +58,7 @@ class Likelihood:
         products = scaled.T @ scaled / designs
         squares = (products**2).sum() - (np.diag(products) ** 2).sum()
         chance = (np.outer(np.diag(products), np.diag(products)).sum() - (np.diag(products) ** 2).sum()) / designs
-        return count / (count + max(squares - chance, 0.0))
+        return (count / (count + max(squares - chance, 0.0))) ** 2
 
     def residuals(self, cube: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Measured less simulated values, and their standard deviation, shape (points, draws).

@@ -1,4 +1,4 @@
-"""What a search asks for: variables, objectives and constraints, and what a design gives of them.
+"""Variables, objectives and constraints of a search, and what a design gives of them.
 
 All are plain values, which `r37core.base.plain` carries. Light: the workflow imports this whether there is a search or not.
 """
