@@ -1,5 +1,6 @@
 """Requirements: each judged on numbers that are known, its margin, place and certainty, and the tables of a run."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,6 +15,7 @@ from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.fem.assembly import mesh_volume
 from r37core.figures.response_curves import draw_response
+from r37core.plans.other_models import ModelChoice
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.requirements import steps
@@ -294,6 +296,10 @@ def test_the_error_of_mesh_and_step_is_measured_on_the_blade():
         looks = {REST: runs, COARSER_MESH: gone, HALF_STEP: runs.sel(speed=near)}
         evidence = Evidence(runs, operating=FLOWN, looks=looks, error=np.nan)
         np.testing.assert_allclose(_measured_error(Requirements(goodman_share=1.0), evidence), error)
+    # without stress there is nothing to differ
+    still = fatigued(everywhere(0.0))
+    evidence = Evidence(still, operating=FLOWN, looks={HALF_STEP: still, COARSER_MESH: still}, error=np.nan)
+    assert _measured_error(Requirements(goodman_share=1.0), evidence) == 0.0
     assert NOT_MEASURED in note_of_unknown(Requirements(goodman_share=1.0), runs, error=np.nan)
     assert verdict(Requirements(goodman_share=0.6), runs, error=np.nan) == FAILS
     assert note_of_unknown(Requirements(goodman_share=0.75), runs, error=np.nan).startswith("meets with 15% less")
@@ -727,3 +733,16 @@ def test_what_moves_no_run_runs_no_further_runs_again(with_requirements):
     wanted = params({"above_yield_at_most_rad_s": 0.0})
     assert params({"above_yield_at_most_rad_s": 0.0, "mass_at_most_kg": 1.0}, dwell=[dwell]) == wanted
     assert params({"above_yield_at_most_rad_s": 5.0}) != wanted
+
+
+def test_the_coarser_mesh_has_half_the_nodes(with_requirements):
+    """Nor is it that of another tip line, or of a mesh that another program made."""
+    settings = with_requirements()
+    judged, place = Judged(Sweep(settings)), SimpleNamespace(blade="Ref", scene="direct")
+    nodes = settings.fidelity.mesh.nodes // 2
+    name = ModelChoice(nodes, 8, settings.fidelity.reduction.fixed_interface_modes, "submesh").name
+    folder = f"<results>/cases/Ref/{name}"
+    assert judged.coarser_model(place) == {"coarser_contact": f"{folder}/contact.npz", "coarser_rom": f"{folder}/rom.nc"}
+    other = with_requirements(scenes=["direct"])
+    other.scenes["direct"] = replace(other.scenes["direct"], tip_line="camber")
+    assert Judged(Sweep(other)).coarser_model(place) == {}
