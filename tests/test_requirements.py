@@ -82,7 +82,7 @@ def response(shares=None, **more):
 
 def stressed(median, shares=None):
     """A response with its median stress, as shares of yield."""
-    return response(shares, max_von_mises_median=median, yield_stress=1.0)
+    return response(shares, max_von_mises_median=2.0 * median, yield_stress=2.0)
 
 
 def fatigued(share):
@@ -438,7 +438,7 @@ def test_the_worst_of_motions_diverged_where_one_did():
 def test_the_runs_closest_to_a_limit():
     median = np.linspace(0.1, 3.0, len(SPEEDS))
     close = closeness(NEEDS, Evidence(stressed(median), operating=FLOWN))
-    assert np.abs(median[close.argmax()] - 1.0) < 0.05 and close[0] < 0.2 and close[-1] < 0.4
+    np.testing.assert_allclose(close, np.minimum(median, 1.0 / median))
 
 
 def test_clearance_mass_and_damage():
@@ -733,6 +733,14 @@ def test_what_moves_no_run_runs_no_further_runs_again(with_requirements):
     wanted = params({"above_yield_at_most_rad_s": 0.0})
     assert params({"above_yield_at_most_rad_s": 0.0, "mass_at_most_kg": 1.0}, dwell=[dwell]) == wanted
     assert params({"above_yield_at_most_rad_s": 5.0}) != wanted
+
+
+def test_further_runs_that_take_too_long_are_left_out(with_requirements):
+    """A thousand revolutions with the published step: 80 of them do not, 400 do."""
+    asked = {"fidelity": "paper", "scenes": ["direct"], "requirements": {"above_yield_at_most_rad_s": 0.0}}
+    for idle, reasons in ((1100.0, []), (300.0, ["no further runs, which take too long with steps of 1e-07 s"])):
+        settings = with_requirements(operating=RANGE | {"idle_rad_s": idle}, **asked)
+        assert list(Judged(Sweep(settings)).not_looked.values()) == reasons
 
 
 def test_the_coarser_mesh_has_half_the_nodes(with_requirements):
