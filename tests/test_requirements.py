@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 from box_mesh import box_mesh
+from integration_cases import DIRECT
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import write_json
@@ -312,6 +313,7 @@ def test_what_a_peak_between_speeds_or_a_drift_may_exceed_is_a_lower_bound():
     assert AT_LEAST in one(limit, broad.assign(stress_drift=("speed", at(1150.0, 0.2, 0.0))))["note"]
     assert "to at least" in certainty(pd.Series(one(limit, sharp, error=0.03)))
     # as it drifts on it fails
+    assert one(limit, broad.assign(stress_drift=("speed", at(1150.0, 0.05, 0.0))))["value_highest"] == pytest.approx(0.525)
     drifting = broad.assign(stress_drift=("speed", at(1150.0, 1.2, 0.0)))
     assert note_of_unknown(limit, drifting).startswith("fails as it drifts on by 0.1")
 
@@ -733,6 +735,12 @@ def test_what_moves_no_run_runs_no_further_runs_again(with_requirements):
     wanted = params({"above_yield_at_most_rad_s": 0.0})
     assert params({"above_yield_at_most_rad_s": 0.0, "mass_at_most_kg": 1.0}, dwell=[dwell]) == wanted
     assert params({"above_yield_at_most_rad_s": 5.0}) != wanted
+
+
+def test_the_clearance_is_the_smallest_of_a_run_that_changes_it():
+    changing = replace(DIRECT.casing, clearance=4e-4, change_revolutions=(0.0, 5.0, 9.0), change=(0.0, -1e-4, 5e-5))
+    settings = SimpleNamespace(scenes={"closing": SimpleNamespace(scene=replace(DIRECT, casing=changing))})
+    assert Judged(Sweep(settings)).clearance == {"closing": pytest.approx(3e-4)}
 
 
 def test_further_runs_that_take_too_long_are_left_out(with_requirements):
