@@ -172,6 +172,15 @@ def test_a_dense_table_makes_the_same_blade(root, blade, tmp_path):
     assert np.abs(many.position(chord, span, side) - blade.position(chord, span, side)).max() < 1e-4
 
 
+def test_a_table_has_four_profiles_at_least(root, tmp_path):
+    source = pd.read_csv(root / "config/profiles/rotor37.csv").sort_values("span_percent")
+    for rows, file in (([0, 3, 7, 10], tmp_path / "four.csv"), ([0, 3, 10], tmp_path / "three.csv")):
+        source.iloc[rows].to_csv(file, index=False)
+    assert len(read_profile_table(tmp_path / "four.csv")) == 4
+    with pytest.raises(BladeShapeError, match="has 3 profiles; the spline along the span needs at least 4"):
+        read_profile_table(tmp_path / "three.csv")
+
+
 def test_plane_sections_of_the_finished_blade_lie_on_one_line(blade, profiles):
     """A second formulation: bisection on the finished map instead of Newton steps on outlines; inside the blade only."""
     chord = np.linspace(0.0, 1.0, 101)

@@ -363,10 +363,10 @@ def three_sides():
     return "\n".join([f"{header},side", *(f"{row},{number % 3}" for number, row in enumerate(rows))])
 
 
-def changed_section(change):
-    """The fan with its fourth section changed."""
-    curves = fan()
-    return csv_text([*curves[:3], change(curves[3]), *curves[4:]])
+def changed_section(change, number=3, count=9):
+    """The fan's first sections, as many as `count`, with one changed."""
+    curves = fan()[:count]
+    return csv_text([*curves[:number], change(curves[number]), *curves[number + 1 :]])
 
 
 def twisted(curve, degrees):
@@ -507,6 +507,11 @@ def test_another_form_of_a_file_is_the_same_blade(settings_with, text, name, mut
             changed_section(lambda curve: np.add(curve, [0.0, 0.0, 0.05])),
             "fan.csv",
             r"\.csv:356: .*section 4 of 9 .*axial place \+50 mm",
+        ),
+        (
+            changed_section(lambda curve: np.add(curve, [0.0, 0.0, 0.05]), 2, 5),
+            "fan.csv",
+            r"\.csv:238: .*section 3 of 5 .*axial place \+50 mm",
         ),
         (changed_section(lambda curve: curve * [-1.0, -1.0, 1.0]), "fan.csv", r"\.csv:356: .*4 of 9 .*place round the axis -8"),
         (changed_section(lambda curve: twisted(curve, 10.0)), "fan.csv", r"\.csv:356: .*4 of 9 .*stagger -9\.\d+ degrees off"),
