@@ -23,6 +23,7 @@ from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.recovery import stress_operators
+from r37core.stress.revolutions import largest_of_revolutions
 from r37core.time_integration.simulate import Simulation
 
 SPEED = 1700.0
@@ -191,6 +192,15 @@ def test_stress_is_that_of_the_whole_displacement(displaced, mesh, steel, rotate
     outside = np.concatenate([nodes[~np.isin(nodes, region).all(axis=1)].ravel() for nodes in mesh.blocks.values()])
     inner = ~np.isin(region[displaced.stress_regions["box"].evaluated], outside)
     np.testing.assert_allclose(ours[inner], theirs[inner], rtol=0, atol=0.02 * theirs.max())
+
+
+def test_the_largest_stress_of_a_revolution_has_the_products(displaced, steel):
+    box = stress_operators(displaced, steel)["box"].displaced(SPEED)
+    states = np.random.default_rng(0).standard_normal((32, 3)) * [3e-4, 5e-5, 2e-5]
+    shapes, rotation = displaced.modes(SPEED, 3)[1], rotation_amplitudes(displaced.rotation_stiffening, SPEED)
+    found, _ = largest_of_revolutions(box, states, shapes, rotation, 16)
+    coordinates = np.hstack([states @ shapes.T, np.tile(rotation, (32, 1))])
+    np.testing.assert_allclose(found, box.max_von_mises(coordinates).reshape(2, 16).max(axis=1), rtol=1e-4)
 
 
 def test_files_hold_the_model(displaced, tmp_path):

@@ -627,6 +627,20 @@ def test_sense_check_false_takes_it_as_it_is(settings_with):
     assert settings_with(odd, "odd.csv", sense_check=False).blades["Fan"].has_profiles
 
 
+@pytest.mark.parametrize("radius", [0.02, 0.03, 0.045])
+def test_the_edges_of_a_plate_begin_where_their_circles_do(radius):
+    """With semicircular ends, on a chord of 0.1 m along the axis: as deep below the nose as the circle's radius."""
+    angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 41)
+    end = np.stack([1.0 - radius + radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+    straight = np.stack([np.linspace(1.0 - radius, radius, 42)[1:-1], np.full(40, radius)], axis=1)
+    half = np.concatenate([end, straight])
+    outline = np.concatenate([half, [1.0, 0.0] - half])
+    section = definition_of(stacked(outline, [0.3], [0.1], [0.0])).curve(0)
+    for edge, nose in ((section.leading_edge, -0.05), (section.trailing_edge, 0.05)):
+        assert edge.radius == pytest.approx(0.1 * radius, rel=1e-3)
+        np.testing.assert_allclose(np.abs(edge.corners[:, 2] - nose), 0.1 * radius, rtol=1e-2)
+
+
 def test_blunt_edges_are_cut_between_the_corners():
     definition = definition_of(fan())
     volumes = [definition.build(round_edges=is_round).volume() for is_round in (True, False)]
