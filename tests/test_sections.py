@@ -272,6 +272,7 @@ def test_a_meridian_goes_through_its_points_and_straight_on(order):
     for end, step in ((z[0], -0.01), (z[-1], 0.01)):
         assert meridian.radius(end + step) == pytest.approx(meridian.radius(end) + step * meridian.slope(end), rel=1e-12)
         assert meridian.slope(end + step) == meridian.slope(end)
+    assert Meridian([(0.0, 0.2), (0.04, 0.22)][::order]).radius(z) == pytest.approx(0.2 + 0.5 * z, rel=1e-12)
 
 
 def test_a_geometry_file_and_a_rule_give_the_same_blade(tmp_path):
@@ -639,6 +640,17 @@ def test_the_edges_of_a_plate_begin_where_their_circles_do(radius):
     for edge, nose in ((section.leading_edge, -0.05), (section.trailing_edge, 0.05)):
         assert edge.radius == pytest.approx(0.1 * radius, rel=1e-3)
         np.testing.assert_allclose(np.abs(edge.corners[:, 2] - nose), 0.1 * radius, rtol=1e-2)
+
+
+def test_an_edge_that_bends_between_two_corners_is_round():
+    """A plate whose leading edge turns by 70, 40 and 70 degrees at its three points."""
+    angle, height = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 41), 0.03
+    trailing = np.stack([1.0 - height + height * np.cos(angle), height * np.sin(angle)], axis=1)
+    side = np.stack([np.linspace(1.0 - height, 0.02, 42)[1:-1], np.full(40, height)], axis=1)
+    leading = [[0.02, height], [0.02 - height / np.tan(np.radians(70.0)), 0.0], [0.02, -height]]
+    outline = np.concatenate([trailing, side, leading, side[::-1] * [1.0, -1.0]])
+    section = definition_of(stacked(outline, [0.3], [0.1], [0.0])).curve(0)
+    assert section.leading_edge.arc is not None and section.trailing_edge.arc is not None
 
 
 def test_blunt_edges_are_cut_between_the_corners():
