@@ -643,11 +643,11 @@ def test_the_edges_of_a_plate_begin_where_their_circles_do(radius):
 
 
 def test_an_edge_that_bends_between_two_corners_is_round():
-    """A plate whose leading edge turns by 70, 40 and 70 degrees at its three points."""
+    """A plate whose leading edge turns by 72, 36 and 72 degrees at its three points."""
     angle, height = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 41), 0.03
     trailing = np.stack([1.0 - height + height * np.cos(angle), height * np.sin(angle)], axis=1)
     side = np.stack([np.linspace(1.0 - height, 0.02, 42)[1:-1], np.full(40, height)], axis=1)
-    leading = [[0.02, height], [0.02 - height / np.tan(np.radians(70.0)), 0.0], [0.02, -height]]
+    leading = [[0.02, height], [0.02 - height / np.tan(np.radians(72.0)), 0.0], [0.02, -height]]
     outline = np.concatenate([trailing, side, leading, side[::-1] * [1.0, -1.0]])
     section = definition_of(stacked(outline, [0.3], [0.1], [0.0])).curve(0)
     assert section.leading_edge.arc is not None and section.trailing_edge.arc is not None
