@@ -14,6 +14,7 @@ from r37core.blade.definition import BladeDefinition
 from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.profile import PRESSURE, SUCTION, BladeShapeError, Profile, area_and_centroid
 from r37core.blade.profile_tables import read_profile_table
+from r37core.blade.sense import sense_of_profile
 from r37core.blade.stacking import chordwise_sweep, conical_stacking, plane_section_stacking, sweep_and_lean
 
 angles = st.floats(-1.2, 1.2)
@@ -170,6 +171,21 @@ def test_a_dense_table_makes_the_same_blade(root, blade, tmp_path):
     many = BladeDefinition("Dense", tuple(read_profile_table(tmp_path / "dense.csv"))).build(round_edges=True)
     chord, span, side = (grid.ravel() for grid in np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 1, 23), [-1.0, 1.0]))
     assert np.abs(many.position(chord, span, side) - blade.position(chord, span, side)).max() < 1e-4
+
+
+def test_the_stagger_of_a_row_is_that_of_its_profile(profiles):
+    """Within a degree, as far as its arcs are steeper at one end than the other."""
+    found = [sense_of_profile(profile.parameters).stagger for profile in profiles]
+    np.testing.assert_allclose(found, [profile.stagger for profile in profiles], atol=np.radians(1.0))
+
+
+def test_a_table_has_four_profiles_at_least(root, tmp_path):
+    source = pd.read_csv(root / "config/profiles/rotor37.csv").sort_values("span_percent")
+    for rows, file in (([0, 3, 7, 10], tmp_path / "four.csv"), ([0, 3, 10], tmp_path / "three.csv")):
+        source.iloc[rows].to_csv(file, index=False)
+    assert len(read_profile_table(tmp_path / "four.csv")) == 4
+    with pytest.raises(BladeShapeError, match="has 3 profiles; the spline along the span needs at least 4"):
+        read_profile_table(tmp_path / "three.csv")
 
 
 def test_plane_sections_of_the_finished_blade_lie_on_one_line(blade, profiles):

@@ -104,6 +104,11 @@ def test_few_pairs_say_what_all_nodes_say(seed):
             np.testing.assert_array_equal(shares, strengths.share(alternating, mean).max(axis=1))
 
 
+def test_without_vibration_the_largest_mean_is_left():
+    largest, means, counts = largest_cycles(np.zeros((2, 3), np.float32), np.array([1e8, 3e8, 2e8], np.float32))
+    assert (largest.tolist(), means.tolist(), counts.tolist()) == ([0.0, 0.0], [3e8, 3e8], [1, 1])
+
+
 def test_numbers_of_known_revolutions():
     """Shares 0.5 and 0.4 in the first revolution, 1.2 in the second, 0.9 in the third."""
     run = {"cycle_alternating": np.array([4.0, 2.0, 11.0, 6.0]), "cycle_mean": np.array([2.0, 4.0, 2.0, 6.0])}

@@ -11,7 +11,7 @@ from quadratic_cases import CHOICE, FAR, LENGTH, beam_model, free_blade, held
 from scipy.integrate import solve_bvp, solve_ivp
 
 from r37core.contact.scene import Rotor
-from r37core.rom.quadratic_terms import followed_modes
+from r37core.rom.quadratic_terms import PATH_SHARES, followed_modes
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 from r37core.time_integration.rotor_blades import mistuned
@@ -318,6 +318,14 @@ def test_how_far_a_run_goes_is_told(displaced, contact):
     scene = replace(LINED, divergence_limit=0.9 * numbers["peak"].max())
     cut = run_speed(contact, SPEED, scene, choice, (), spectrum_highest_order=8, wear_angles=4)
     assert cut["status"] == RunStatus.DIVERGED and 0.0 <= cut["peak_share_of_height"] < numbers["peak_share_of_height"]
+
+
+def test_what_the_path_of_second_order_leaves_out_is_of_third(displaced):
+    """At 4 and 8% of the height; where the series of the full model has not converged, the error is the height."""
+    terms = displaced.quadratic
+    np.testing.assert_allclose(PATH_SHARES[[4, 8]], [0.04, 0.08])
+    assert 8.0 < terms.path_errors[8] / terms.path_errors[4] < 16.0
+    assert terms.path_errors[16] < 2e-4 and np.all(terms.path_errors[17:] == terms.height)
 
 
 def test_modes_that_come_near_to_each_other_are_followed():

@@ -13,6 +13,7 @@ from r37core.fem.matrices import static_displacement
 from r37core.fem.solver import lowest_modes
 from r37core.rom.contact_weights import tip_contact
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes
+from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.rom.reduction_choice import BoundaryError
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 
@@ -169,3 +170,11 @@ def test_the_box(mesh, model):
     assert x.max() < 0.197 and z.min() > 0.0165 and z.max() < 0.0265
     assert not set(region.nodes.nodes) & set(mesh.node_set("root"))
     assert elements.max() == len(region.nodes.nodes) - 1
+
+
+@pytest.mark.parametrize(
+    ("points", "angle"), [([[0.0, 0.25, 0.01], [0.26, 0.0, 0.03]], np.arctan(0.5)), ([[0.2, 0.0, 0.1]], 0.0)]
+)
+def test_the_cone_of_a_line_goes_through_its_ends(points, angle):
+    nothing = np.empty((len(points), 3, 0))
+    assert RecoveryNodes(np.arange(len(points)), np.array(points), nothing, nothing).cone_angle == pytest.approx(angle)

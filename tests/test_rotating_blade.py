@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from box_mesh import box_mesh
 from quadratic_cases import CHOICE, FAR, beam_model, held
+from scipy.linalg import eigh
 from test_calculix import printed, run_calculix
 
 from r37core.config import ConfigError, command_line_document
@@ -22,6 +23,7 @@ from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.recovery import stress_operators
+from r37core.stress.revolutions import largest_of_revolutions
 from r37core.time_integration.simulate import Simulation
 
 SPEED = 1700.0
@@ -43,12 +45,27 @@ def test_forces_balance_at_the_equilibrium(rotation, equilibrium, matrices):
     assert np.linalg.norm(rotation.residual(equilibrium, SPEED)) < 1e-8 * load
 
 
+def test_the_tangent_is_the_derivative_of_the_forces(mesh, matrices, steel, equilibrium):
+    """Spin softening in it."""
+    softened = Rotation(LargeDisplacement(mesh.blocks, mesh.points, steel), matrices, follows=True)
+    along = 1e-7 * softened.free(mesh.points)
+    ends = (softened.residual(equilibrium + sign * softened.whole(along), SPEED) for sign in (-1.0, 1.0))
+    expected, found = 0.5 * np.subtract(*ends), softened.tangent(equilibrium, SPEED) @ along
+    assert np.linalg.norm(found - expected) < 1e-3 * np.linalg.norm(SPEED**2 * (matrices.spin_softening() @ along))
+
+
 def test_frequencies_between_the_speeds_of_the_basis(rotation, equilibrium, displaced, matrices):
     """Of the full model's tangent, within 0.1% of the first, 0.5% of the others: as far as the basis has them at its speeds."""
     squares, _ = lowest_modes(rotation.tangent(equilibrium, SPEED), matrices.mass(), 4)
     frequencies, _ = displaced.modes(SPEED, 4)
     np.testing.assert_allclose(frequencies, np.sqrt(squares), rtol=5e-3)
     assert frequencies[0] == pytest.approx(np.sqrt(squares[0]), rel=1e-3)
+
+
+def test_the_mean_stiffening_is_that_up_to_half_of_the_highest_speed(displaced):
+    half = displaced.logarithmic_stiffness.speeds[0]
+    squares = eigh(displaced.stiffness + half**2 * displaced.geometric_stiffness, displaced.mass, eigvals_only=True)
+    np.testing.assert_allclose(np.sqrt(squares[:4]), displaced.modes(half, 4)[0], rtol=1e-6)
 
 
 def test_displacement_between_the_speeds_of_the_basis(displaced, equilibrium):
@@ -156,11 +173,17 @@ def test_a_turned_body_has_no_stress(mesh, steel):
     assert np.abs(first + 0.5 * second).max() < 1.0
 
 
-def test_stress_is_that_of_the_whole_displacement(displaced, mesh, steel):
-    """Of the operators, at nodes of the box whose elements all belong to it, as of the field on the whole blade."""
+@pytest.mark.parametrize("rotates", [False, True])
+def test_stress_is_that_of_the_whole_displacement(displaced, mesh, steel, rotates):
+    """With that of rotation, or less it.
+
+    Of the operators, at nodes of the box whose elements all belong to it, as of the field on the whole blade.
+    """
     box = stress_operators(displaced, steel)["box"].displaced(SPEED)
     modes = displaced.modes(SPEED, 3)[1]
     coordinates = modes @ [3e-4, -5e-5, 2e-5]
+    if rotates:
+        coordinates = np.append(coordinates, rotation_amplitudes(displaced.rotation_stiffening, SPEED))
     ours = box.von_mises(coordinates[None])[0]
     _, field = stress_of(mesh, displaced, steel, WorstInstant(0.0, coordinates[None], 0), SPEED)
     s = field[:, displaced.stress_regions["box"].nodes.nodes[displaced.stress_regions["box"].evaluated]]
@@ -169,6 +192,15 @@ def test_stress_is_that_of_the_whole_displacement(displaced, mesh, steel):
     outside = np.concatenate([nodes[~np.isin(nodes, region).all(axis=1)].ravel() for nodes in mesh.blocks.values()])
     inner = ~np.isin(region[displaced.stress_regions["box"].evaluated], outside)
     np.testing.assert_allclose(ours[inner], theirs[inner], rtol=0, atol=0.02 * theirs.max())
+
+
+def test_the_largest_stress_of_a_revolution_has_the_products(displaced, steel):
+    box = stress_operators(displaced, steel)["box"].displaced(SPEED)
+    states = np.random.default_rng(0).standard_normal((32, 3)) * [3e-4, 5e-5, 2e-5]
+    shapes, rotation = displaced.modes(SPEED, 3)[1], rotation_amplitudes(displaced.rotation_stiffening, SPEED)
+    found, _ = largest_of_revolutions(box, states, shapes, rotation, 16)
+    coordinates = np.hstack([states @ shapes.T, np.tile(rotation, (32, 1))])
+    np.testing.assert_allclose(found, box.max_von_mises(coordinates).reshape(2, 16).max(axis=1), rtol=1e-4)
 
 
 def test_files_hold_the_model(displaced, tmp_path):
@@ -180,13 +212,16 @@ def test_files_hold_the_model(displaced, tmp_path):
         for name, value in vars(getattr(contact, part)).items():
             assert np.array_equal(getattr(getattr(model, part), name), value), name
     np.testing.assert_array_equal(model.modes_at(SPEED)[0], contact.modes_at(SPEED)[0])
-    assert model.modes_at(SPEED)[0][0] == pytest.approx(displaced.modes(SPEED, 1)[0][0], rel=1e-10)
+    assert model.modes_at(SPEED)[0][0] == pytest.approx(displaced.modes(SPEED, 1)[0][0], rel=1e-9)
 
 
-def test_rotating_has_the_modes_alone(reduced, displaced):
+def test_rotating_has_the_modes_alone(reduced, displaced, steel):
     model = reduced(kinematics="rotating")
     assert model.quadratic is None
     np.testing.assert_allclose(model.modes(SPEED, 3)[0], displaced.modes(SPEED, 3)[0], rtol=1e-3)
+    # nor has its stress products
+    operator = stress_operators(model, steel)["box"]
+    assert operator.operator.shape[2] == model.size + len(model.rotation_stiffening)
 
 
 @pytest.mark.parametrize(

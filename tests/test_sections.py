@@ -272,6 +272,7 @@ def test_a_meridian_goes_through_its_points_and_straight_on(order):
     for end, step in ((z[0], -0.01), (z[-1], 0.01)):
         assert meridian.radius(end + step) == pytest.approx(meridian.radius(end) + step * meridian.slope(end), rel=1e-12)
         assert meridian.slope(end + step) == meridian.slope(end)
+    assert Meridian([(0.0, 0.2), (0.04, 0.22)][::order]).radius(z) == pytest.approx(0.2 + 0.5 * z, rel=1e-12)
 
 
 def test_a_geometry_file_and_a_rule_give_the_same_blade(tmp_path):
@@ -363,10 +364,10 @@ def three_sides():
     return "\n".join([f"{header},side", *(f"{row},{number % 3}" for number, row in enumerate(rows))])
 
 
-def changed_section(change):
-    """The fan with its fourth section changed."""
-    curves = fan()
-    return csv_text([*curves[:3], change(curves[3]), *curves[4:]])
+def changed_section(change, number=3, count=9):
+    """The fan's first sections, as many as `count`, with one changed."""
+    curves = fan()[:count]
+    return csv_text([*curves[:number], change(curves[number]), *curves[number + 1 :]])
 
 
 def twisted(curve, degrees):
@@ -508,6 +509,11 @@ def test_another_form_of_a_file_is_the_same_blade(settings_with, text, name, mut
             "fan.csv",
             r"\.csv:356: .*section 4 of 9 .*axial place \+50 mm",
         ),
+        (
+            changed_section(lambda curve: np.add(curve, [0.0, 0.0, 0.05]), 2, 5),
+            "fan.csv",
+            r"\.csv:238: .*section 3 of 5 .*axial place \+50 mm",
+        ),
         (changed_section(lambda curve: curve * [-1.0, -1.0, 1.0]), "fan.csv", r"\.csv:356: .*4 of 9 .*place round the axis -8"),
         (changed_section(lambda curve: twisted(curve, 10.0)), "fan.csv", r"\.csv:356: .*4 of 9 .*stagger -9\.\d+ degrees off"),
         (
@@ -620,6 +626,31 @@ def test_sense_check_false_takes_it_as_it_is(settings_with):
     assert settings_with(FAN, rotation="positive", sense_check=False).blades["Fan"].has_profiles
     odd = changed_section(lambda curve: np.delete(np.add(curve, [0.0, 0.0, 0.02]), slice(15, 30), axis=0))
     assert settings_with(odd, "odd.csv", sense_check=False).blades["Fan"].has_profiles
+
+
+@pytest.mark.parametrize("radius", [0.02, 0.03, 0.045])
+def test_the_edges_of_a_plate_begin_where_their_circles_do(radius):
+    """With semicircular ends, on a chord of 0.1 m along the axis: as deep below the nose as the circle's radius."""
+    angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 41)
+    end = np.stack([1.0 - radius + radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+    straight = np.stack([np.linspace(1.0 - radius, radius, 42)[1:-1], np.full(40, radius)], axis=1)
+    half = np.concatenate([end, straight])
+    outline = np.concatenate([half, [1.0, 0.0] - half])
+    section = definition_of(stacked(outline, [0.3], [0.1], [0.0])).curve(0)
+    for edge, nose in ((section.leading_edge, -0.05), (section.trailing_edge, 0.05)):
+        assert edge.radius == pytest.approx(0.1 * radius, rel=1e-3)
+        np.testing.assert_allclose(np.abs(edge.corners[:, 2] - nose), 0.1 * radius, rtol=1e-2)
+
+
+def test_an_edge_that_bends_between_two_corners_is_round():
+    """A plate whose leading edge turns by 72, 36 and 72 degrees at its three points."""
+    angle, height = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 41), 0.03
+    trailing = np.stack([1.0 - height + height * np.cos(angle), height * np.sin(angle)], axis=1)
+    side = np.stack([np.linspace(1.0 - height, 0.02, 42)[1:-1], np.full(40, height)], axis=1)
+    leading = [[0.02, height], [0.02 - height / np.tan(np.radians(72.0)), 0.0], [0.02, -height]]
+    outline = np.concatenate([trailing, side, leading, side[::-1] * [1.0, -1.0]])
+    section = definition_of(stacked(outline, [0.3], [0.1], [0.0])).curve(0)
+    assert section.leading_edge.arc is not None and section.trailing_edge.arc is not None
 
 
 def test_blunt_edges_are_cut_between_the_corners():
