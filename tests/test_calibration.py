@@ -74,13 +74,13 @@ def test_hidden_values_are_within_their_ranges():
 
 def test_numbers_of_which_only_the_product_counts_are_told_together():
     dataset, _ = calibrated(product, product(1e-3, 0.2))
-    assert any("told together with scene.friction.coefficient" in note for note in notes(dataset, LENGTH.name))
+    assert any("identifiable only together with scene.friction.coefficient" in note for note in notes(dataset, LENGTH.name))
     assert dataset["correlation"].values[0, 1] < -0.7
 
 
 def test_a_number_that_changes_nothing_is_not_told():
     dataset, _ = calibrated(lambda length, friction: peak(length, 0.2), peak(1e-3, 0.2))
-    assert notes(dataset, FRICTION.name) == ["not told by these measurements"]
+    assert notes(dataset, FRICTION.name) == ["not identifiable by these measurements"]
 
 
 def test_a_point_on_another_branch_is_named_and_moves_nothing():

@@ -5,12 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
+from conftest import CHECKOUT
 
+import r37
+from r37core.config import ConfigError, Document
 from r37core.measured.comparison import compared
 from r37core.measured.file import MOST_SPEEDS, MeasurementError, Reading, read_points
 from r37core.measured.observed import statistic
-from r37core.measured.points import Measurement, Points, first_speed_above, turned_profile
+from r37core.measured.plan import Calibrated, Measured
+from r37core.measured.points import Measurement, Points, feature_speed, turned_profile
+from r37core.product.extensions import load_settings
 from r37core.results.agreement import agreeing, disagreements, disagrees, groups, words
+from r37core.stress.gauge import Gauge
 
 READING = Reading("displacement_normal", "rms", 0, "", "", 0.05, np.nan, {})
 WORN = replace(READING, quantity="worn_depth", speed=1200.0)
@@ -88,7 +94,11 @@ def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
         ("speed_rad_s,a_m\n1,1\n", replace(READING, rows={"blade": "A"}), "no column 'blade'"),
         ("", READING, "allowed: a CSV with a header"),
         ("speed_rad_s,angle_deg,d_m\n1,0,1\n2,0,1\n", WORN, "over angles at 2 speeds"),
-        ("speed_rad_s,a_m\n1,1\n2,2\n", replace(READING, first_above=3.0), "values from 1 to 2; allowed: a limit"),
+        (
+            "speed_rad_s,a_m\n1,1\n2,2\n",
+            replace(READING, speed_of="first_above", limit=3.0),
+            "values from 1 to 2; allowed: a first_above",
+        ),
     ],
 )
 def test_a_file_that_fits_nothing_says_what_would(read, text, reading, told):
@@ -96,12 +106,12 @@ def test_a_file_that_fits_nothing_says_what_would(read, text, reading, told):
         read(text, reading)
 
 
-def test_first_speed_above_a_limit_lies_anywhere_between_two_speeds(read):
+def test_feature_speed_a_limit_lies_anywhere_between_two_speeds(read):
     text = "speed_rad_s,a_m\n100,1\n110,1\n120,3\n130,9\n"
-    points = read(text, replace(READING, first_above=2.0))
+    points = read(text, replace(READING, speed_of="first_above", limit=2.0))
     assert points.values == (115.0,)
     np.testing.assert_allclose(points.deviations, 10.0 / np.sqrt(12.0))
-    assert first_speed_above(np.array([1.0, 2.0]), np.array([1.0, 1.0]), 2.0) == np.inf
+    assert feature_speed(np.array([1.0, 2.0]), np.array([1.0, 1.0]), 2.0) == np.inf
 
 
 def test_a_time_signal_is_amplitudes_of_its_engine_orders(read):
@@ -160,6 +170,102 @@ def test_words_say_how_many_points_agree_and_where_others_lie():
     table = comparison([1.0, 4.0, None])
     assert words(table) == "1 of 3 points within 2 sigma; 200 rad/s: simulated 2 times measured; 300 rad/s: diverged"
     assert disagrees(table) and not disagrees(comparison([1.0, 2.0, 4.0]))
-    note = "disagrees with its measurement (displacement_normal, rms: 1 of 3 points agree)"
+    note = "simulation disagrees with 1 measurement (measured.csv)"
     assert disagreements(pd.concat([table, comparison([1.0, 2.0, 4.0]).assign(blade="B")])) == {("A", "s"): note}
     assert [key for key, _ in groups(table)] == [("A", "s", "displacement_normal, rms", "tip.csv")]
+
+
+def configured(folder, measured, text="speed_rad_s,a_m\n1000,1e-3\n1100,2e-3\n", **more):
+    """Settings of a run of Ref with measurements, of which the file has this text."""
+    (folder / "tip.csv").write_text(text)
+    shared = {"file": str(folder / "tip.csv"), "blade": "Ref", "scene": "abradable", "quantity": "displacement_normal"}
+    entries = [{**shared, "uncertainty_percent": 5, **entry} for entry in measured]
+    scenes = sorted({entry["scene"] for entry in entries} & {"abradable", "direct", "material_abradable", "rotor_abradable"})
+    content = {
+        "blades": ["Ref"],
+        "scenes": scenes or ["abradable"],
+        "speeds": [1000.0],
+        "fidelity": "draft",
+        "measured": entries,
+    }
+    return load_settings(Document("config.yaml", content | more), CHECKOUT)
+
+
+def test_a_gauge_is_that_of_the_signals(tmp_path):
+    gauge = {"chord": 0.5, "span": 0.3, "side": "pressure", "angle_deg": 90.0}
+    text = "speed_rad_s,g_microstrain\n1000,200\n"
+    strain = {"quantity": "strain", "gauge": gauge, "statistic": "half_peak_to_peak"}
+    (measured,) = configured(tmp_path, [strain], text).made(Measured).all.values()
+    assert measured.gauge == Gauge(0.5, 0.3, "pressure", np.pi / 2) and measured.points.values == pytest.approx((2e-4,))
+    assert measured.unit == "1" and measured.title == "strain, half_peak_to_peak"
+
+
+REFUSED = [
+    ({"blade": "Nobody"}, r"measured.0.blade: found 'Nobody'; allowed: one that is run \(Ref\)"),
+    ({"scene": "nowhere"}, r"measured.0.scene: found 'nowhere'; allowed: one that is run"),
+    ({"scene": "rotor_abradable"}, "measured.0.scene: found 'rotor_abradable', a rotor"),
+    ({"scene": "direct", "quantity": "worn_depth"}, "worn_depth in 'direct', without lining"),
+    ({"quantity": "strain", "gauge": "G1"}, r"found 'G1'; allowed: one of signals.gauges \(none\), or a place"),
+    ({"quantity": "strain"}, "strain without gauge; allowed: gauge beside it"),
+    ({"probe_deg": 10.0}, "displacement_normal with probe_deg; allowed: probe_deg left out"),
+    ({"statistic": "order"}, "statistic order without engine_order"),
+    ({"speed_of": "first_above"}, "first_above without a limit"),
+    ({"value": "?"}, r"measured.0.value: .*the columns are: speed_rad_s \(speed\), a_m \(length\)"),
+    ({"file": "/nowhere/tip.csv"}, "measured.0.file: /nowhere/tip.csv: .*allowed: a CSV with a header"),
+]
+
+
+@pytest.mark.parametrize("entry, told", REFUSED)
+def test_a_measurement_that_fits_nothing_is_refused(tmp_path, entry, told):
+    with pytest.raises(ConfigError, match=told):
+        configured(tmp_path, [entry])
+
+
+def test_rpm_taken_for_rad_s_are_refused(tmp_path):
+    with pytest.raises(ConfigError, match=r"found 12000 rad/s in .*; allowed: up to 4000.*rpm in a column"):
+        configured(tmp_path, [{}], "speed_rad_s,a_m\n12000,1e-3\n")
+
+
+def test_a_speed_without_a_curve_is_compared_with_the_sweep_about_it(tmp_path):
+    speeds = {"speeds": [{"start": 900, "stop": 1100, "step": 10}]}
+    text = "peak_speed_rad_s,sigma_rad_s\n1000,2\n"
+    (measured,) = configured(tmp_path, [{"speed_of": "peak"}], text, **speeds).made(Measured).all.values()
+    assert measured.run_speeds == tuple(np.arange(960.0, 1041.0, 10.0)) and measured.unit == "rad s-1"
+    assert measured.points.values == (1000.0,) and measured.points.deviations == (2.0,)
+    curve = {speed: {"m0": np.array([1.0 / (1.0 + ((speed - 993.0) / 30.0) ** 2)])} for speed in measured.run_speeds}
+    np.testing.assert_allclose(measured.simulated(curve, "m0")[0], 993.0, atol=0.3)
+    with pytest.raises(ConfigError, match="peak with 1 of them; allowed: speeds of the sweep, 5 or more within 5% of 1000"):
+        configured(tmp_path, [{"speed_of": "peak"}], text)
+
+
+FRICTION = {"of_scenes": {"friction.coefficient": {"between": [0.05, 0.3]}}}
+
+
+@pytest.mark.parametrize(
+    "measured, calibrate, told",
+    [
+        ([], FRICTION, "calibrate: found no measurement; allowed: measured"),
+        ([{}], {}, "no number; allowed: some under of_scenes"),
+        ([{}], {"of_scenes": {"frictoin": {"between": [0.05, 0.3]}}}, "frictoin; allowed: .*friction.coefficient"),
+        ([{}], {"of_scenes": {"casing.clearance_m": {"between": [-1.0, 1e-3]}}}, "at the end of its range: "),
+        ([{}], {**FRICTION, "runs": 16, "first": 12}, r"found 12; allowed: at most half of runs \(16\)"),
+        ([{}], {"rub_test": "/nowhere.csv"}, "calibrate.rub_test: found /nowhere.csv; allowed: .*contact_length_m"),
+    ],
+)
+def test_a_calibration_that_cannot_be_done_is_refused(tmp_path, measured, calibrate, told):
+    with pytest.raises(ConfigError, match=told):
+        configured(tmp_path, measured, calibrate=calibrate)
+
+
+def test_the_contact_length_of_a_rub_test_is_what_is_known_before(tmp_path):
+    depths = np.linspace(20.0, 200.0, 10)
+    rows = "".join(
+        f"{depth:.1f},{0.4 * depth * (1.0 + 0.01 * (-1) ** number):.4f},10,2\n" for number, depth in enumerate(depths)
+    )
+    (tmp_path / "rig.csv").write_text(f"depth_um,force_n,width_mm,thickness_mm\n{rows}")
+    entry = {"scene": "material_abradable"}
+    settings = configured(tmp_path, [entry], calibrate={"rub_test": str(tmp_path / "rig.csv")})
+    ((number, spread),) = settings.made(Calibrated).spreads.items()
+    low, high = spread.log_between
+    fit = r37.lining_from_rub_test(tmp_path / "rig.csv").contact_length
+    assert number.name == "scene.lining.contact_length_m" and (low, high) == pytest.approx(fit.range_95)

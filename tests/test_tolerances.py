@@ -149,6 +149,25 @@ def test_members_have_the_values_of_the_sample(root):
     assert {member.scene.lining.elastic_modulus for member in lined.values()} == {1.0e10, 3.0e10}
 
 
+def test_members_have_the_joint_values_of_a_file(root, tmp_path):
+    """As a calibration draws them: the values of a row belong together, whatever else has the same."""
+    file = tmp_path / "members.csv"
+    rows = [(0.1, 1e-3), (0.1, 2e-3), (0.2, 2e-3), (0.3, 1e-3), (0.3, 3e-3)]
+    lines = "".join(f"{friction},{damping}\n" for friction, damping in rows)
+    file.write_text(f"scene.friction.coefficient,scene.damping_ratio\n{lines}")
+    settings = settings_of(root, {"drawn_file": str(file), "members": 4, "blades": ["Ref"]})
+    members = members_of(settings).all["Ref", "direct"].values()
+    assert [member.values for member in members] == [rows[place] for place in (0, 1, 2, 3)]
+    assert [member.scene.friction.coefficient for member in members] == [0.1, 0.1, 0.2, 0.3]
+    with pytest.raises(ConfigError, match=r"drawn_file: found 5 rows in .*; allowed: 8 or more"):
+        settings_of(root, {"drawn_file": str(file), "members": 8})
+    with pytest.raises(ConfigError, match="distributions beside it; allowed: one of them"):
+        settings_of(root, {"drawn_file": str(file), "members": 4, "of_scenes": {"damping_ratio": {"normal": 1e-4}}})
+    file.write_text("scene.friction.coefficient\nhigh\n")
+    with pytest.raises(ConfigError, match=r"could not convert .*; allowed: a CSV with a number in each field"):
+        settings_of(root, {"drawn_file": str(file), "members": 2})
+
+
 def test_a_blade_spreads_in_material_thickness_and_place(root):
     numbers = {"material.youngs_modulus_pa": {"normal_percent": 1.0}, "thickness_percent": {"between": [90.0, 110.0]}}
     numbers |= {"sweep_percent": {"uniform": 10.0}, "lean_deg": {"uniform": 1.0}}

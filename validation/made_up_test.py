@@ -6,6 +6,7 @@
 from pathlib import Path
 
 import numpy as np
+
 import r37
 
 FAN = Path("examples/fan")
@@ -24,7 +25,9 @@ def test_of(scene: str, seed: int) -> str:
     noise = 1.0 + NOISE * np.random.default_rng(seed).standard_normal((2, len(SPEEDS_RPM)))
     columns = 1e6 * noise * [response["rms_tangential"].values, response["max_wear"].values]
     rows = zip(SPEEDS_RPM, *columns.round(1).tolist(), strict=True)
-    header = "# A made-up test: simulated with hidden values of the scene, and noise of 5%.\nspeed_rpm,amplitude (um),worn (um)\n"
+    header = (
+        "# A made-up test: simulated with hidden values of the scene, and noise of 5%.\nspeed_rpm,amplitude (um),worn (um)\n"
+    )
     return header + "".join(f"{speed},{amplitude},{worn}\n" for speed, amplitude, worn in rows)
 
 

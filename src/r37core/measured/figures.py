@@ -1,22 +1,32 @@
 """Figures of measurements beside the simulation, and of a calibration."""
 
+from itertools import product
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
 
+from r37core.base.dataset_file import read_dataset
 from r37core.base.units import shown_unit
 from r37core.figures import style
 from r37core.results.agreement import groups, words
+
+NO_MEMBERS = Path("none")
 
 _CURVES = {"displacement_normal, rms": "rms_normal", "displacement_tangential, rms": "rms_tangential"}
 """Quantity that members under tolerances have, too, at the leading edge."""
 
 
-def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: xr.Dataset | None = None) -> Figure:
-    """Measured and simulated values of each measurement of a blade in a scene, with two standard deviations."""
-    own = [(key[2], rows) for key, rows in groups(table) if key[:2] == (blade, scene)]
+def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: Path = NO_MEMBERS) -> Figure:
+    """Measured and simulated values of each measurement of a blade in a scene, with two standard deviations.
+
+    `members`: file of the members under tolerances, where there are some.
+    """
+    pair, sampled = (blade, scene), _sampled(members)
+    own = [(key[2], rows) for key, rows in groups(table) if key[:2] == pair]
     figure, grid = plt.subplots(len(own), 1, figsize=(style.PAGE, 0.4 + 2.1 * len(own)), squeeze=False)
     for axes, (quantity, rows) in zip(grid.flat, own, strict=True):
         over_angle = rows["angle_deg"].notna().all()
@@ -27,9 +37,10 @@ def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: xr.Datas
         if rows["engine_order"].nunique() > 1:
             places, label = rows["engine_order"], "engine order"
         curve = _CURVES.get(quantity)
-        if members is not None and curve and blade in members["blade"] and scene in members["scene"]:
-            part = members[f"{curve}_quantile"].sel(blade=blade, scene=scene).dropna("speed")
-            axes.fill_between(part["speed"], *(factor * part.isel(quantile=[0, -1]).T.values.T), alpha=0.2, label="tolerances")
+        if curve and pair in sampled:
+            part = sampled[pair][f"{curve}_quantile"].dropna("speed")
+            ends = factor * part.isel(quantile=[0, -1]).transpose("quantile", "speed").values
+            axes.fill_between(part["speed"], *ends, color=style.COLOURS[4], alpha=0.3, label="tolerances")
         simulated = factor * rows["simulated"].replace(np.inf, np.nan)
         spread = 2.0 * factor * rows["simulated_uncertainty"]
         ordered = np.argsort(places.to_numpy(), kind="stable")
@@ -42,6 +53,15 @@ def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: xr.Datas
         axes.set(xlabel=label, ylabel=f"{quantity}\n({unit or '1'})", title=words(rows).split("; ")[0])
     grid.flat[0].legend()
     return figure
+
+
+def _sampled(members: Path) -> dict[tuple[str, str], xr.Dataset]:
+    """Part of the members' dataset of each blade and scene that it has."""
+    if members == NO_MEMBERS:
+        return {}
+    dataset = read_dataset(members)
+    pairs = product(dataset["blade"].values, dataset["scene"].values)
+    return {(blade, scene): dataset.sel(blade=blade, scene=scene) for blade, scene in pairs}
 
 
 def draw_calibration(calibration: xr.Dataset) -> Figure:

@@ -11,7 +11,7 @@ import pandas as pd
 
 from r37core.config.messages import single_line
 
-from .points import ORDER, STRAIN, TIP_TIMING, WORN_DEPTH, Points, first_speed_above
+from .points import ORDER, STRAIN, TIP_TIMING, VALUES, WORN_DEPTH, Points, feature_speed
 
 MOST_SPEEDS = 60
 """Speeds of a measurement that are run; of more, those spread evenly over the curve and its largest value."""
@@ -67,11 +67,12 @@ class Reading:
     percent: float | None
     speed: float
     rows: Mapping[str, str]
-    first_above: float | None = None
+    speed_of: str = VALUES
+    limit: float | None = None
 
 
 def read_points(file: Path, reading: Reading, *, asked: bool = False) -> tuple[Points, tuple[float, ...]]:
-    """Points of a measurement's file, and with `first_above` the speeds (rad/s) of its curve. Raises MeasurementError.
+    """Points of a measurement's file, and the speeds (rad/s) of its curve of which one speed counts. Raises MeasurementError.
 
     `asked`: whether the header is to be told.
     """
@@ -83,6 +84,8 @@ def read_points(file: Path, reading: Reading, *, asked: bool = False) -> tuple[P
             raise MeasurementError("rows", f"found no column '{name}'; the header is: {_header(table)}")
         table = table[table[name].astype(str).str.strip() == text]
     columns = [column for name in table if (column := _column(str(name)))]
+    if reading.speed_of != VALUES and not _fitting(columns, reading):
+        return _single_speed(table, columns, reading), ()
     value = _value_column(table, columns, reading)
     sigma = _single(table, [each for each in columns if each.is_uncertainty], "uncertainty", reading.uncertainty, value.kind)
     axes = {kind: _axis(table, columns, kind) for kind in (_SPEED, _ANGLE, _TIME)}
@@ -141,10 +144,25 @@ def _column(name: str) -> _Column | None:
     return None
 
 
+def _fitting(columns: list[_Column], reading: Reading) -> list[_Column]:
+    kind = _STRAIN if reading.quantity == STRAIN else _LENGTH
+    return [column for column in columns if column.kind == kind and not column.is_uncertainty]
+
+
+def _single_speed(table: pd.DataFrame, columns: list[_Column], reading: Reading) -> Points:
+    """The one speed that a file has in place of a curve."""
+    sigma = _single(table, [each for each in columns if each.is_uncertainty], "uncertainty", reading.uncertainty, _SPEED)
+    column = _axis(table, columns, _SPEED)
+    speeds = np.empty(0) if column is None else _numbers(table, column)
+    if len(speeds) != 1 or not speeds[0] > 0.0:
+        raise MeasurementError("rows", f"found {len(speeds)} speeds of a {reading.speed_of}; allowed: one row, or a curve")
+    numbers = {"value": speeds} | ({} if sigma is None else {"sigma": _numbers(table, sigma)})
+    return Points.collected(speeds, speeds, _deviations(numbers, reading))
+
+
 def _value_column(table: pd.DataFrame, columns: list[_Column], reading: Reading) -> _Column:
     kind = _STRAIN if reading.quantity == STRAIN else _LENGTH
-    fitting = [column for column in columns if column.kind == kind and not column.is_uncertainty]
-    column = _single(table, fitting, "value", reading.value, kind)
+    column = _single(table, _fitting(columns, reading), "value", reading.value, kind)
     if column is None:
         units = ", ".join(_UNITS[kind])
         raise MeasurementError(
@@ -158,8 +176,8 @@ def _single(table: pd.DataFrame, fitting: list[_Column], key: str, name: str, ki
     if name:
         fitting = [column for column in fitting if column.name == name and column.kind == kind]
     if (name and not fitting) or len(fitting) > 1:
-        found = f"'{name}'" if name else f"{len(fitting)} columns that it may be"
-        raise MeasurementError(key, f"found {found}; allowed: a column with a {kind} of the header: {_header(table)}")
+        named = f"'{name}'" if name else f"{len(fitting)} columns that it may be"
+        raise MeasurementError(key, f"found {named}; allowed: a column with a {kind} of the header: {_header(table)}")
     return fitting[0] if fitting else None
 
 
@@ -211,11 +229,13 @@ def _over_speeds(numbers: Mapping[str, np.ndarray], reading: Reading, missing: i
     kept = np.unique(np.append(np.linspace(0, len(speeds) - 1, min(MOST_SPEEDS, len(speeds))).astype(int), values.argmax()))
     speeds, values, deviations = speeds[kept], values[kept], deviations[kept]
     dropped = missing + len(order) - len(kept)
-    if reading.first_above is not None:
-        first = first_speed_above(speeds, values, reading.first_above)
-        if not np.isfinite(first) or first == speeds[0]:
+    if reading.speed_of != VALUES:
+        first = feature_speed(speeds, values, reading.limit)
+        if not speeds[0] < first < speeds[-1]:
             largest = f"values from {values.min():g} to {values.max():g}"
-            raise MeasurementError("first_above", f"found {largest}; allowed: a limit that they pass after the first speed")
+            raise MeasurementError(
+                "limit", f"found {largest}; allowed: a {reading.speed_of} between the first speed and the last"
+            )
         width = float(np.diff(speeds)[max(int(np.searchsorted(speeds, first)) - 1, 0)])
         # anywhere between two speeds: a uniform distribution
         point = Points.collected(np.array(first), np.array([first]), np.array(width / np.sqrt(12.0)), dropped=dropped)

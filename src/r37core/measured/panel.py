@@ -13,10 +13,10 @@ from r37core.results.table_file import read_table
 from .posterior import number_table
 
 
-def contents(table: pd.DataFrame) -> list[dict[str, object]]:
+def contents(measured: pd.DataFrame) -> list[dict[str, object]]:
     """Each measurement: blade, scene, title and unit, its axis, measured and simulated values, their deviations, and words."""
     panels: list[dict[str, object]] = []
-    for (blade, scene, quantity, file), rows in groups(table):
+    for (blade, scene, quantity, file), rows in groups(measured):
         over_angle = rows["angle_deg"].notna().all()
         numbers = {name: packed(rows[name].to_numpy(float)) for name in rows if rows[name].dtype.kind in "fi"}
         axis = "angle_deg" if over_angle else "speed_rad_s"

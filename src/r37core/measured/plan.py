@@ -27,7 +27,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.stress.gauge import Gauge
 from r37core.surrogate.gaussian_processes import SearchPackageMissing, library
 
-from .points import RMS, STRAIN, TIP_TIMING, WORN_DEPTH, Measurement
+from .points import RMS, STRAIN, TIP_TIMING, VALUES, WORN_DEPTH, Measurement
 from .section import ASKED, CALIBRATE, MEASURED, CalibrateSection, MeasurementSection
 
 OBSERVED = "<results>/{blade}/{scene}/observed.json"
@@ -37,6 +37,9 @@ FOLDER = "<results>/calibration"
 """Folder of the draws, and of scenes with the best values."""
 
 _LENGTH = VariedNumber(SCENE, "lining.contact_length_m")
+
+NEAR, _FEWEST = 0.05, 5
+"""About a speed that was measured in place of a curve: how far speeds of the sweep are run, and how many there are at least."""
 
 
 @dataclass(frozen=True)
@@ -97,16 +100,35 @@ class Measured:
         if entry.quantity == WORN_DEPTH and scene.lining is None:
             raise document.refusal((*path, "quantity"), f"{WORN_DEPTH} in '{entry.scene}', without lining", "a scene with one")
         gauge = self._gauge(entry, path)
-        percent = None if entry.uncertainty_percent is None else 0.01 * entry.uncertainty_percent
         asked = entry.value == ASKED
-        columns = "" if asked else entry.value or "", entry.uncertainty or ""
-        order, speed = entry.engine_order or 0, si_fields(entry).get("speed", np.nan)
-        reading = Reading(entry.quantity, entry.statistic, order, *columns, percent, speed, entry.rows, entry.first_above)
+        reading = Reading(
+            quantity=entry.quantity,
+            statistic=entry.statistic,
+            order=entry.engine_order or 0,
+            value="" if asked else entry.value or "",
+            uncertainty=entry.uncertainty or "",
+            percent=None if entry.uncertainty_percent is None else 0.01 * entry.uncertainty_percent,
+            speed=si_fields(entry).get("speed", np.nan),
+            rows=entry.rows,
+            speed_of=entry.speed_of,
+            limit=entry.limit,
+        )
         file = Path(entry.file) if Path(entry.file).is_absolute() else settings.root / entry.file
         try:
             points, speeds = read_points(file, reading, asked=asked)
         except MeasurementError as error:
             raise document.error((*path, error.key), f"{entry.file}: {error}") from None
+        if entry.speed_of != VALUES and not speeds:
+            # the sweep's speeds about it
+            near = [
+                each
+                for each in settings.speed_plans[entry.blade, entry.scene].certain
+                if abs(each / points.values[0] - 1) < NEAR
+            ]
+            if len(near) < _FEWEST:
+                allowed = f"speeds of the sweep, {_FEWEST} or more within {NEAR:.0%} of {points.values[0]:g} rad/s"
+                raise document.refusal((*path, "speed_of"), f"{entry.speed_of} with {len(near)} of them", allowed)
+            speeds = tuple(near)
         fastest, highest = max((*points.speeds, *speeds)), FARTHEST * settings.structure.maximum_speed_rad_s
         if fastest > highest:
             allowed = f"up to {highest:g}, {FARTHEST:g} times structure.maximum_speed_rad_s; rpm in a column ..._rpm"
@@ -114,7 +136,8 @@ class Measured:
         return Measurement(
             file=entry.file, blade=entry.blade, scene=entry.scene, quantity=entry.quantity, points=points,
             statistic=RMS if entry.quantity == WORN_DEPTH else entry.statistic, tip_point=entry.tip_point,
-            probe=np.radians(entry.probe_deg or 0.0), gauge=gauge, first_above=entry.first_above, curve_speeds=speeds,
+            probe=np.radians(entry.probe_deg or 0.0), gauge=gauge, speed_of=entry.speed_of, limit=entry.limit,
+            curve_speeds=speeds,
         )  # fmt: skip
 
     def _gauge(self, entry: MeasurementSection, path: tuple[str | int, ...]) -> Gauge | None:

@@ -9,6 +9,7 @@ import numpy as np
 from r37core.stress.gauge import Gauge
 
 RMS, HALF_PEAK_TO_PEAK, ORDER = "rms", "half_peak_to_peak", "order"
+VALUES, PEAK, FIRST_ABOVE = "values", "peak", "first_above"
 WORN_DEPTH, STRAIN, TIP_TIMING = "worn_depth", "strain", "tip_timing"
 NORMAL, TANGENTIAL, RADIAL = (f"displacement_{direction}" for direction in ("normal", "tangential", "radial"))
 
@@ -49,8 +50,8 @@ class Points:
 class Measurement:
     """A `quantity` of a blade in a scene and its `points`; `file` as it is named.
 
-    `statistic`: RMS, HALF_PEAK_TO_PEAK or ORDER; `first_above`: a limit in SI units, where the one point is the first speed
-    above it. `probe` (rad), `gauge`: of tip timing and strain.
+    `statistic`: RMS, HALF_PEAK_TO_PEAK or ORDER; `speed_of`: PEAK, or FIRST_ABOVE with a `limit` in SI units, where the one
+    point is the speed of that on a curve over `curve_speeds` (rad/s). `probe` (rad), `gauge`: of tip timing and strain.
     """
 
     file: str
@@ -62,19 +63,20 @@ class Measurement:
     tip_point: str = "leading_edge"
     probe: float = 0.0
     gauge: Gauge | None = None
-    first_above: float | None = None
+    speed_of: str = VALUES
+    limit: float | None = None
     curve_speeds: tuple[float, ...] = ()
 
     @property
     def unit(self) -> str:
         """Unit of the values."""
-        return "rad s-1" if self.first_above is not None else "1" if self.quantity == STRAIN else "m"
+        return "rad s-1" if self.speed_of != VALUES else "1" if self.quantity == STRAIN else "m"
 
     @property
     def title(self) -> str:
         """Quantity and statistic, for tables, figures and messages."""
-        if self.first_above is not None:
-            return f"first speed with {self.quantity} above {self.first_above:g}"
+        if self.speed_of != VALUES:
+            return f"speed of the {'peak' if self.limit is None else f'first above {self.limit:g}'} of {self.quantity}"
         return self.quantity if self.quantity == WORN_DEPTH else f"{self.quantity}, {self.statistic}"
 
     @property
@@ -93,9 +95,9 @@ class Measurement:
 
         Infinite where a run diverged. A profile is turned to where it fits best, which the remark says.
         """
-        if self.first_above is not None:
+        if self.speed_of != VALUES:
             curve = np.array([runs[speed][name][0] for speed in self.run_speeds])
-            return np.array([first_speed_above(np.array(self.run_speeds), curve, self.first_above)]), ""
+            return np.array([feature_speed(np.array(self.run_speeds), curve, self.limit)]), ""
         if self.points.angles:
             return turned_profile(runs[self.points.speeds[0]][name], self.points)
         return np.array([runs[speed][name][order] for speed, order in zip(self.points.speeds, self.places, strict=True)]), ""
@@ -111,8 +113,17 @@ class Measurement:
         return [self.wanted_orders.index(order) for order in self.points.orders]
 
 
-def first_speed_above(speeds: np.ndarray, values: np.ndarray, limit: float) -> float:
-    """First speed (rad/s) at which a curve passes a limit, between speeds by a straight line; infinite where none does."""
+def feature_speed(speeds: np.ndarray, values: np.ndarray, limit: float | None) -> float:
+    """First speed (rad/s) at which a curve passes a limit, or without one that of its largest value; infinite without any.
+
+    Between speeds a straight line counts for the limit, and for the largest value the parabola through three speeds.
+    """
+    if limit is None:
+        place = int(values.argmax())
+        if not np.isfinite(values).all() or place in (0, len(values) - 1):
+            return float(speeds[place]) if np.isfinite(values).all() else np.inf
+        curvature, slope, _ = np.polyfit(speeds[place - 1 : place + 2] - speeds[place], values[place - 1 : place + 2], 2)
+        return float(speeds[place] - 0.5 * slope / curvature) if curvature < 0.0 else float(speeds[place])
     above = np.flatnonzero(values > limit)
     if not above.size:
         return np.inf

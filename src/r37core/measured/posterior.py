@@ -19,10 +19,10 @@ from .calibration import Calibration
 ENDS = {"low_95": 0.025, "low_68": 0.16, "median": 0.5, "high_68": 0.84, "high_95": 0.975}
 
 UNTOLD = 0.8
-"""Share of its width before that a number's range keeps where the measurements tell nothing of it."""
+"""Share of its width before that a number's range keeps where the measurements do not determine it."""
 
 TOGETHER = 0.7
-"""Correlation from which on measurements tell two numbers together and not each."""
+"""Correlation from which on measurements identify two numbers together and not each."""
 
 _AT_END = 0.02
 _SURE = 0.99
@@ -88,7 +88,7 @@ def _reaches_end(cube: np.ndarray) -> np.ndarray:
 
 
 def number_table(dataset: xr.Dataset) -> pd.DataFrame:
-    """A row for each number: best value, ranges, and what the measurements do not tell."""
+    """A row for each number: best value, ranges, and what the measurements do not determine."""
     rows = []
     for name in dataset["number"].values:
         number = dataset.sel(number=name)
@@ -99,16 +99,16 @@ def number_table(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def notes(dataset: xr.Dataset, name: str) -> list[str]:
-    """Texts on a number that the measurements do not tell."""
+    """Texts on what the measurements do not determine of a number."""
     number, lines = dataset.sel(number=name), []
     if number["width_share"] > UNTOLD:
-        lines.append("not told by these measurements")
+        lines.append("not identifiable by these measurements")
     elif number["at_end"]:
         lines.append("reaches an end of its range")
-    for one, other in combinations(dataset["number"].values, 2):
-        share = float(dataset["correlation"].sel(number=one, number_2=other))
-        if name in (one, other) and abs(share) > TOGETHER:
-            lines.append(f"told together with {other if name == one else one} alone (correlation {share:.2f})")
+    for first, second in combinations(dataset["number"].values, 2):
+        share = float(dataset["correlation"].sel(number=first, number_2=second))
+        if name in (first, second) and abs(share) > TOGETHER:
+            lines.append(f"identifiable only together with {second if name == first else first} (correlation {share:.2f})")
     return lines
 
 

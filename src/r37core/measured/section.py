@@ -38,7 +38,10 @@ class MeasurementSection(Section):
     speed_rad_s: Speed | LeftOut = left_out("Speed, where the file has none")
     speed_rpm: Rpm | LeftOut = left_out("The same speed in revolutions per minute")
     rows: dict[str, str] = Field(default={}, description="Rows of a long file that count: text by column")
-    first_above: Width | LeftOut = left_out("Limit in SI units: of the curve the first speed above it counts alone")
+    speed_of: Literal["values", "peak", "first_above"] = Field(
+        default="values", description="In place of the values the speed of the largest, or the first speed above a limit"
+    )
+    limit: Width | LeftOut = left_out("Limit of first_above in SI units")
 
     def _check(self) -> None:
         needs = {"gauge": self.quantity == STRAIN, "probe_deg": self.quantity == TIP_TIMING}
@@ -50,8 +53,8 @@ class MeasurementSection(Section):
                 raise refused((key,), f"{owner} {joint} {key}", f"{key} {allowed}")
         if self.quantity in (TIP_TIMING, WORN_DEPTH) and self.statistic == ORDER:
             raise refused(("statistic",), f"{ORDER} of {self.quantity}", "another statistic")
-        if self.first_above is not None and self.quantity == WORN_DEPTH:
-            raise refused(("first_above",), f"a limit of {WORN_DEPTH}", "a displacement or strain")
+        if (self.limit is None) == (self.speed_of == "first_above"):
+            raise refused(("limit",), f"{self.speed_of} {'without' if self.limit is None else 'with'} a limit", "both or none")
         if self.speed_rad_s is not None and self.speed_rpm is not None:
             raise refused(("speed_rpm",), "speed_rad_s and speed_rpm", "one of them")
 

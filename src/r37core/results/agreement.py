@@ -54,9 +54,9 @@ def _ratio(row: Any) -> str:
 
 
 def disagreements(table: pd.DataFrame) -> dict[tuple[str, str], str]:
-    """Blade and scene -> which measurements of it disagree, of those that have some."""
-    notes: dict[tuple[str, str], list[str]] = {}
-    for (blade, scene, quantity, _), rows in groups(table):
+    """Blade and scene -> a note on its measurements that disagree, of those that have some."""
+    counts: dict[tuple[str, str], int] = {}
+    for (blade, scene, *_), rows in groups(table):
         if disagrees(rows):
-            notes.setdefault((blade, scene), []).append(f"{quantity}: {agreeing(rows).sum()} of {len(rows)} points agree")
-    return {pair: f"disagrees with its measurement ({'; '.join(lines)})" for pair, lines in notes.items()}
+            counts[blade, scene] = counts.get((blade, scene), 0) + 1
+    return {pair: f"simulation disagrees with {counted(count, 'measurement')} (measured.csv)" for pair, count in counts.items()}
