@@ -18,7 +18,7 @@ panels.measured = (measurements, page) => {
       const color = colourOf(number);
       return [
         { x, y: scaled(each.simulated.values, factor), mode: "lines+markers", line: { color }, name: `simulated: ${each.title}`, hovertext: each.words },
-        { x, y: scaled(each.measured.values, factor), error_y: { type: "data", array: deviations }, mode: "markers", marker: { color, symbol: "square-open" }, name: `measured: ${each.words}` },
+        { x, y: scaled(each.measured.values, factor), error_y: { type: "data", array: deviations }, mode: "markers", marker: { color, symbol: "square-open" }, name: `measured: ${each.words.split("; ")[0]}` },
       ];
     });
     const unit = { m: " (mm)", "rad s-1": " (rad/s)" }[first.unit] ?? "";

@@ -20,7 +20,7 @@ def contents(measured: pd.DataFrame) -> list[dict[str, object]]:
         over_angle = rows["angle_deg"].notna().all()
         numbers = {name: packed(rows[name].to_numpy(float)) for name in rows if rows[name].dtype.kind in "fi"}
         axis = "angle_deg" if over_angle else "speed_rad_s"
-        about = {"blade": blade, "scene": scene, "title": f"{quantity} ({file})", "unit": rows["unit"].iloc[0]}
+        about = {"blade": blade, "scene": scene, "title": f"{quantity} ({Path(file).name})", "unit": rows["unit"].iloc[0]}
         panels.append(about | {"axis": axis, "words": words(rows)} | numbers)
     return panels
 
