@@ -10,23 +10,30 @@ from conftest import CHECKOUT
 import r37
 from r37core.config import ConfigError, Document
 from r37core.measured.comparison import compared
-from r37core.measured.file import MOST_SPEEDS, MeasurementError, Reading, read_points
+from r37core.measured.file import MOST_SPEEDS, MeasurementError, read_points
 from r37core.measured.observed import statistic
 from r37core.measured.plan import Calibrated, Measured
 from r37core.measured.points import Measurement, Points, feature_speed, turned_profile
+from r37core.measured.section import MeasurementSection
 from r37core.product.extensions import load_settings
 from r37core.results.agreement import agreeing, disagreements, disagrees, groups, words
 from r37core.stress.gauge import Gauge
 
-READING = Reading("displacement_normal", "rms", 0, "", "", 0.05, np.nan, {})
-WORN = replace(READING, quantity="worn_depth", speed=1200.0)
+READING = MeasurementSection(file="f", blade="A", scene="s", quantity="displacement_normal", uncertainty_percent=5)
+
+
+def reading(**keys):
+    return READING.model_copy(update=keys)
+
+
+WORN = reading(quantity="worn_depth", speed_rad_s=1200.0)
 
 
 @pytest.fixture
 def read(tmp_path):
-    def points(text, reading=READING, **options):
+    def points(text, entry=READING):
         (tmp_path / "file.csv").write_text(text, encoding="utf-8")
-        return read_points(tmp_path / "file.csv", reading, **options)[0]
+        return read_points(tmp_path / "file.csv", entry)[0]
 
     return points
 
@@ -55,14 +62,14 @@ def test_rows_without_a_number_are_left_out_and_speeds_ascend(read):
 
 def test_a_long_file_has_rows_that_are_chosen_and_a_wide_one_columns(read):
     long = "blade,speed_rad_s,a_m\nA,1,1\nB,1,2\nB,2,4\n"
-    assert read(long, replace(READING, rows={"blade": "B"})).values == (2.0, 4.0)
+    assert read(long, reading(rows={"blade": "B"})).values == (2.0, 4.0)
     wide = "speed_rad_s,a_m,b_m\n1,1,3\n"
-    assert read(wide, replace(READING, value="b_m")).values == (3.0,)
-    with pytest.raises(MeasurementError, match=r"2 columns that it may be; .*a_m \(length\), b_m") as refused:
+    assert read(wide, reading(value="b_m")).values == (3.0,)
+    with pytest.raises(MeasurementError, match=r"2 columns with a length; .*a_m \(length\), b_m") as refused:
         read(wide)
     assert refused.value.key == "value"
     with pytest.raises(MeasurementError, match=r"the columns are: speed_rad_s \(speed\), a_m \(length\), b_m \(length\)"):
-        read(wide, asked=True)
+        read(wide, reading(value="?"))
 
 
 def test_a_speed_that_was_measured_twice_has_the_mean(read):
@@ -80,7 +87,7 @@ def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
 
 
 @pytest.mark.parametrize(
-    "text, reading, told",
+    "text, entry, told",
     [
         ("speed_rad_s,a\n1,1\n", READING, r"no column of displacement_normal.*a \(no number\)"),
         ("speed,a_m\n1,1\n", READING, "no column with a speed, in rad/s or rpm"),
@@ -89,26 +96,28 @@ def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
         ("speed_rad_s,a_m\n0,1\n", READING, "a speed of 0 rad/s"),
         ("speed_rad_s,a_m\n,\n", READING, "no row with all numbers"),
         ("speed_rad_s,a_m\n1,0\n", READING, "values that are all 0"),
-        ("speed_rad_s,a_m\n1,1\n", replace(READING, percent=None), "neither it nor a column 'uncertainty'"),
+        ("speed_rad_s,a_m\n1,1\n", reading(uncertainty_percent=None), "neither it nor a column 'uncertainty'"),
         ("speed_rad_s,a_m,sigma_m\n1,1,0\n", READING, "above 0, a standard deviation"),
-        ("speed_rad_s,a_m\n1,1\n", replace(READING, rows={"blade": "A"}), "no column 'blade'"),
+        ("speed_rad_s,a_m\n1,1\n", reading(rows={"blade": "A"}), "no column 'blade'"),
+        ("speed_rad_s,a_m,speed_error_rad_s\n1,1,2\n", reading(uncertainty_percent=None), "neither it nor a column"),
+        ("speed_rad_s,a_m\n1,2,3\n", READING, "more cells than the header"),
         ("", READING, "allowed: a CSV with a header"),
         ("speed_rad_s,angle_deg,d_m\n1,0,1\n2,0,1\n", WORN, "over angles at 2 speeds"),
         (
             "speed_rad_s,a_m\n1,1\n2,2\n",
-            replace(READING, speed_of="first_above", limit=3.0),
+            reading(speed_of="first_above", limit=3.0),
             "values from 1 to 2; allowed: a first_above",
         ),
     ],
 )
-def test_a_file_that_fits_nothing_says_what_would(read, text, reading, told):
+def test_a_file_that_fits_nothing_says_what_would(read, text, entry, told):
     with pytest.raises(MeasurementError, match=told):
-        read(text, reading)
+        read(text, entry)
 
 
 def test_feature_speed_a_limit_lies_anywhere_between_two_speeds(read):
     text = "speed_rad_s,a_m\n100,1\n110,1\n120,3\n130,9\n"
-    points = read(text, replace(READING, speed_of="first_above", limit=2.0))
+    points = read(text, reading(speed_of="first_above", limit=2.0))
     assert points.values == (115.0,)
     np.testing.assert_allclose(points.deviations, 10.0 / np.sqrt(12.0))
     assert feature_speed(np.array([1.0, 2.0]), np.array([1.0, 1.0]), 2.0) == np.inf
@@ -119,7 +128,7 @@ def test_a_time_signal_is_amplitudes_of_its_engine_orders(read):
     times = np.arange(0, 0.2, 2e-4)
     signal = 5.0 + 0.4 * np.cos(3 * 1000 * times + 0.3) + 0.1 * np.sin(7 * 1000 * times)
     text = "time_s,a_mm\n" + "".join(f"{t:.6g},{v:.9g}\n" for t, v in zip(times, signal, strict=True))
-    points = read(text, replace(READING, speed=1000.0))
+    points = read(text, reading(speed_rad_s=1000.0))
     assert points.orders == (3, 7)
     np.testing.assert_allclose(points.values, [4e-4, 1e-4], rtol=1e-6)
 

@@ -127,11 +127,17 @@ def test_many_points_are_fitted():
     assert fit.values["elastic_modulus_pa"].best == pytest.approx(2e9, rel=5e-3)
 
 
+def test_a_table_has_the_separator_of_its_header(tmp_path):
+    (tmp_path / "rig.csv").write_text("Depth (\u00b5m); Force [kN]\n100; .04\n200;.081\n")
+    fit = r37.lining_from_rub_test(tmp_path / "rig.csv", **RIG)
+    assert fit == r37.lining_from_rub_test({"depth_mm": [0.1, 0.2], "force_n": [40, 81]}, **RIG)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "No columns to parse.*; allowed: a header"),
-        ("depth_mm,force_n\n.1,3\n.2,4,5", "Expected 2 fields in line 3, saw 3; allowed: a header"),
+        ("", "No columns to parse.*; allowed: a CSV with a header"),
+        ("depth_mm,force_n\n.1,3\n.2,4,5", "Expected 2 fields in line 3, saw 3; allowed: a CSV with a header"),
         ("depth_mm,force_n\n0,1,3,4\n0,2,5,6", "more cells than the header; allowed: as many, and decimal points"),
         (
             "depth_mm,force_lbf\n.1,3\n.2,5",

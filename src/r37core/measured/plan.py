@@ -13,7 +13,7 @@ from r37core.base.plain import to_plain
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 from r37core.config import ConfigError, Settings
 from r37core.config.changed_numbers import ImpossibleValueError, changed_pair, check_known, nominal_value, scene_numbers
-from r37core.config.declaring import si_fields, si_form
+from r37core.config.declaring import si_form
 from r37core.config.messages import single_line
 from r37core.config.section import ExtensionSection, plain
 from r37core.config.settings import FARTHEST
@@ -28,7 +28,7 @@ from r37core.stress.gauge import Gauge
 from r37core.surrogate.gaussian_processes import SearchPackageMissing, library
 
 from .points import RMS, STRAIN, TIP_TIMING, VALUES, WORN_DEPTH, Measurement
-from .section import ASKED, CALIBRATE, MEASURED, CalibrateSection, MeasurementSection
+from .section import CALIBRATE, MEASURED, CalibrateSection, MeasurementSection
 
 OBSERVED = "<results>/{blade}/{scene}/observed.json"
 TABLE = "<results>/measured.csv"
@@ -85,7 +85,7 @@ class Measured:
 
     def _read(self, number: int, entry: MeasurementSection) -> Measurement:
         # reading tables takes pandas, which a run without measurements does not load
-        from .file import MeasurementError, Reading, read_points
+        from .file import MeasurementError, read_points
 
         settings, document, path = self.settings, self.settings.documents.config, ("measured", number)
         names = {"blade": settings.blade_names, "scene": settings.scene_names}
@@ -100,22 +100,9 @@ class Measured:
         if entry.quantity == WORN_DEPTH and scene.lining is None:
             raise document.refusal((*path, "quantity"), f"{WORN_DEPTH} in '{entry.scene}', without lining", "a scene with one")
         gauge = self._gauge(entry, path)
-        asked = entry.value == ASKED
-        reading = Reading(
-            quantity=entry.quantity,
-            statistic=entry.statistic,
-            order=entry.engine_order or 0,
-            value="" if asked else entry.value or "",
-            uncertainty=entry.uncertainty or "",
-            percent=None if entry.uncertainty_percent is None else 0.01 * entry.uncertainty_percent,
-            speed=si_fields(entry).get("speed", np.nan),
-            rows=entry.rows,
-            speed_of=entry.speed_of,
-            limit=entry.limit,
-        )
         file = Path(entry.file) if Path(entry.file).is_absolute() else settings.root / entry.file
         try:
-            points, speeds = read_points(file, reading, asked=asked)
+            points, speeds = read_points(file, entry)
         except MeasurementError as error:
             raise document.error((*path, error.key), f"{entry.file}: {error}") from None
         if entry.speed_of != VALUES and not speeds:

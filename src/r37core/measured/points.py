@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -30,20 +30,10 @@ class Points:
     dropped: int = 0
 
     @classmethod
-    def collected(
-        cls,
-        speeds: np.ndarray,
-        values: np.ndarray,
-        deviations: np.ndarray,
-        orders: np.ndarray | int = 0,
-        *,
-        angles: np.ndarray | None = None,
-        dropped: int = 0,
-    ) -> Self:
-        """Points of arrays of shape (points,), or of one speed or order that all have."""
-        columns = [np.broadcast_to(part, values.shape).tolist() for part in (speeds, values, deviations, orders)]
-        places, measured, sure, numbers = map(tuple, columns)
-        return cls(places, measured, sure, numbers, () if angles is None else tuple(angles.tolist()), dropped)
+    def collected(cls, speeds: Any, values: np.ndarray, deviations: Any, orders: Any = 0, **others: Any) -> Self:
+        """Points of arrays of shape (points,), or of one speed, deviation or order that all have; `others`: further fields."""
+        columns = (np.broadcast_to(part, values.shape).tolist() for part in (speeds, values, deviations, orders))
+        return cls(*map(tuple, columns), **others)
 
 
 @dataclass(frozen=True)
@@ -85,6 +75,11 @@ class Measurement:
         return tuple(sorted({*(self.curve_speeds or self.points.speeds)}))
 
     @property
+    def wanted_orders(self) -> tuple[int, ...]:
+        """Engine orders that a run keeps; 0 stands for the statistic."""
+        return tuple(sorted({*self.points.orders}))
+
+    @property
     def observes(self) -> tuple[object, ...]:
         """All that decides what is kept of a run for it."""
         wanted = self.wanted_orders, bool(self.points.angles)
@@ -100,17 +95,8 @@ class Measurement:
             return np.array([feature_speed(np.array(self.run_speeds), curve, self.limit)]), ""
         if self.points.angles:
             return turned_profile(runs[self.points.speeds[0]][name], self.points)
-        return np.array([runs[speed][name][order] for speed, order in zip(self.points.speeds, self.places, strict=True)]), ""
-
-    @property
-    def wanted_orders(self) -> tuple[int, ...]:
-        """Engine orders that a run keeps; 0 stands for the statistic."""
-        return tuple(sorted({*self.points.orders}))
-
-    @property
-    def places(self) -> list[int]:
-        """Place of each point's order among those that a run keeps."""
-        return [self.wanted_orders.index(order) for order in self.points.orders]
+        points = zip(self.points.speeds, self.points.orders, strict=True)
+        return np.array([runs[speed][name][self.wanted_orders.index(order)] for speed, order in points]), ""
 
 
 def feature_speed(speeds: np.ndarray, values: np.ndarray, limit: float | None) -> float:
@@ -119,11 +105,11 @@ def feature_speed(speeds: np.ndarray, values: np.ndarray, limit: float | None) -
     Between speeds a straight line counts for the limit, and for the largest value the parabola through three speeds.
     """
     if limit is None:
-        place = int(values.argmax())
-        if not np.isfinite(values).all() or place in (0, len(values) - 1):
-            return float(speeds[place]) if np.isfinite(values).all() else np.inf
+        place, is_finite = int(values.argmax()), np.isfinite(values).all()
+        if not is_finite or place in (0, len(values) - 1):
+            return float(speeds[place]) if is_finite else np.inf
         curvature, slope, _ = np.polyfit(speeds[place - 1 : place + 2] - speeds[place], values[place - 1 : place + 2], 2)
-        return float(speeds[place] - 0.5 * slope / curvature) if curvature < 0.0 else float(speeds[place])
+        return float(speeds[place] - (0.5 * slope / curvature if curvature < 0.0 else 0.0))
     above = np.flatnonzero(values > limit)
     if not above.size:
         return np.inf

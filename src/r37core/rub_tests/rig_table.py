@@ -1,6 +1,5 @@
 """Table of a rub rig: forces of a tool that presses an abradable lining, over depth."""
 
-import io
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,9 +8,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from r37core.base.io import TextFileError, read_text
 from r37core.base.units import LENGTH_UNITS
 from r37core.config import ConfigError
+from r37core.config.csv_cells import read_cells
 from r37core.config.messages import did_you_mean, single_line
 
 _NEEDED, _FORCE_UNITS = ("depth", "force", "thickness", "width"), {"n": 1.0, "kn": 1e3}
@@ -28,15 +27,10 @@ def read_rub_test(table: Path | str | Mapping[str, Any], constant: Mapping[str, 
     """
     file = Path(table) if isinstance(table, Path | str) else None
     try:
-        if file is None:
-            return _points(pd.DataFrame(table), constant)
-        cells = pd.read_csv(io.StringIO(read_text(file)), comment="#", dtype=str, skipinitialspace=True)
-        if not isinstance(cells.index, pd.RangeIndex):
-            raise ConfigError("found rows with more cells than the header; allowed: as many, and decimal points")
-        return _points(cells, constant)
-    except (OSError, TextFileError, ValueError) as error:
-        remedy = "" if isinstance(error, ConfigError) else "; allowed: a header, and rows of as many cells"
-        raise ConfigError(f"{file or 'table'}: {getattr(error, 'strerror', None) or str(error).strip()}{remedy}") from None
+        return _points(read_cells(file) if file else pd.DataFrame(table), constant)
+    except ValueError as error:
+        remedy = "" if isinstance(error, ConfigError) else "; allowed: columns of one length"
+        raise ConfigError(f"{file or 'table'}: {error}{remedy}") from None
 
 
 def _points(cells: pd.DataFrame, constant: Mapping[str, float]) -> pd.DataFrame:
