@@ -1,8 +1,10 @@
 # Measurements beside the simulation, and numbers fitted to them.
 from r37core.measured import plan as measured_plan
+from r37core.measured.calibration_plan import Calibrated
+from r37core.measured.measurement_plan import Measured
 
-measured = settings.made(measured_plan.Measured)
-calibrated = settings.made(measured_plan.Calibrated)
+measured = settings.made(Measured)
+calibrated = settings.made(Calibrated)
 
 
 use rule step as observed with:

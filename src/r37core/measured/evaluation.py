@@ -11,7 +11,7 @@ import numpy as np
 
 from r37core.base.varied_number import VariedNumber
 from r37core.config import ConfigError, Settings, varied_settings
-from r37core.config.changed_numbers import ImpossibleValueError, changed_pair
+from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.fem.equilibrium import NoEquilibriumError
 from r37core.machine_code.kept import content_digest
 from r37core.mesh.mesh_files import read_vtu
@@ -26,8 +26,8 @@ from r37core.sweep.recipe import STRUCTURES, code_of, structure_attributes
 from r37core.time_integration.clearance import NoRoomError
 from r37core.time_integration.integration_choice import IntegrationChoice
 
+from .calibration_plan import Calibrated
 from .observed import ObservedBlade
-from .plan import scene_values
 from .points import STRAIN, TIP_TIMING, Measurement
 
 Values = dict[str, list[float]]
@@ -70,8 +70,8 @@ class Evaluation:
         simulated: Values = {}
         try:
             for (blade, scene), observed in self.blades.items():
-                settings, numbers = self.settings, scene_values(self.settings, scene, values)
-                changed, other = changed_pair(settings.blades[blade], settings.scene_designs.entries[scene], numbers)
+                settings = self.settings
+                changed, other = settings.made(Calibrated).changed(blade, scene, values)
                 folder = self.folder / name / blade / scene
                 parts = replace(observed.parts, folder=folder)
                 if changed.elastic != settings.blades[blade].elastic:

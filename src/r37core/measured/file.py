@@ -15,7 +15,7 @@ from r37core.config.csv_cells import read_cells
 from r37core.config.declaring import si_fields
 
 from .points import STRAIN, TIP_TIMING, VALUES, WORN_DEPTH, Points, feature_speed
-from .section import ASKED, MeasurementSection
+from .section import ASKED, MeasurementError, MeasurementSection
 
 MOST_SPEEDS = 60
 """Speeds of a measurement that are run; of more, those spread evenly over the curve and its largest value."""
@@ -32,14 +32,6 @@ _UNITS = {
     _STRAIN: {"strain": 1.0, "m/m": 1.0, "um/m": 1e-6, "microstrain": 1e-6, "ue": 1e-6},
 }
 _UNCERTAINTY = re.compile(r"uncertainty|sigma|std|deviation|error", re.IGNORECASE)
-
-
-class MeasurementError(ValueError):
-    """A file of a measurement that cannot be used, for a reason that `key` of its entry is to blame for."""
-
-    def __init__(self, key: str, text: str):
-        super().__init__(text)
-        self.key = key
 
 
 @dataclass(frozen=True)

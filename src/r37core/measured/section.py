@@ -59,6 +59,14 @@ class MeasurementSection(Section):
             raise refused(("speed_rpm",), "speed_rad_s and speed_rpm", "one of them")
 
 
+class MeasurementError(ValueError):
+    """A file of a measurement that cannot be used, for a reason that `key` of its entry is to blame for."""
+
+    def __init__(self, key: str, text: str):
+        super().__init__(text)
+        self.key = key
+
+
 class CalibrateSection(Spreads):
     """Numbers that are fitted to the measurements, with what is known of them before."""
 

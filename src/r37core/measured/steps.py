@@ -21,9 +21,10 @@ from r37core.sweep.forks import forked_results
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .calibration import Calibration, Numbers
+from .calibration_plan import Calibrated
 from .comparison import compared
 from .evaluation import Evaluation, observed_blade
-from .plan import Calibrated, Measured
+from .measurement_plan import Measured
 from .points import Measurement
 from .posterior import calibrated_scenes, calibration_dataset, drawn_table, number_table
 
@@ -82,7 +83,7 @@ def calibrate(input: Any, output: Any, params: Any) -> None:
     numbers = Numbers(calibrated.spreads, calibrated.nominal, calibrated.section.seed)
     every = {name: each for pair in measured.pairs for name, each in measured.pair_measurements(pair).items()}
     calibration = Calibration(every, numbers, run_all)
-    calibration.run(calibrated.budget(), Evaluation(settings, blades, folder, run_all).simulate, JOB_NEWS.info)
+    calibration.run(calibrated.budget, Evaluation(settings, blades, folder, run_all).simulate, JOB_NEWS.info)
     designs = json.dumps(to_plain([calibration.cube, [part.tolist() for part in calibration.simulated]]))
     digest = hashlib.sha256(designs.encode()).hexdigest()[:32]
     dataset = calibration_dataset(calibration, calibrated.section.draws)
