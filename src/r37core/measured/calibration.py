@@ -68,16 +68,20 @@ class Calibration:
             new = self._next(count)
             named = {f"c{len(self.cube) + place:04d}": self.numbers.values(point) for place, point in enumerate(new)}
             for point, gave in zip(new, simulate(named), strict=True):
-                lost = {name: [inf] * len(each.points.values) for name, each in self.measurements.items()}
-                values = lost if isinstance(gave, str) else gave
+                lost = isinstance(gave, str)
+                values = self.floors + inf if lost else np.concatenate([gave[name] for name in self.measurements])
                 self.cube.append(point)
-                self.simulated.append(self.scaled(np.concatenate([values[name] for name in self.measurements])))
+                self.simulated.append(self.scaled(values))
 
     @cached_property
     def floors(self) -> np.ndarray:
         """Small value of each point that is added before the logarithm is taken."""
-        parts = [_SMALL * np.full(len(each.points.values), max(each.points.values)) for each in self.measurements.values()]
-        return np.maximum(np.concatenate(parts), 1e-300)
+        values = [np.array(each.points.values) for each in self.measurements.values()]
+        return np.maximum(np.concatenate([np.full(len(part), _SMALL * part.max()) for part in values]), 1e-300)
+
+    def column(self, name: str) -> np.ndarray:
+        """A field of the points of all measurements, one after the other."""
+        return np.concatenate([getattr(each.points, name) for each in self.measurements.values()])
 
     def scaled(self, values: np.ndarray) -> np.ndarray:
         """Values at all points as the surrogates have them."""
@@ -86,11 +90,8 @@ class Calibration:
     @property
     def measured(self) -> tuple[np.ndarray, np.ndarray]:
         """Measured values and their standard deviations, as the surrogates have them."""
-        values, deviations = (
-            np.concatenate([getattr(each.points, name) for each in self.measurements.values()])
-            for name in ("values", "deviations")
-        )
-        return self.scaled(values), deviations / (values + self.floors)
+        values = self.column("values")
+        return self.scaled(values), self.column("deviations") / (values + self.floors)
 
     @property
     def misfits(self) -> np.ndarray:
@@ -102,10 +103,10 @@ class Calibration:
     @property
     def told(self) -> str:
         """The best design so far, for messages."""
-        best = int(np.nanargmin(self.misfits)) if np.isfinite(self.misfits).any() else None
-        if best is None:
+        if not np.isfinite(self.misfits).any():
             return "no design could be run to its end"
-        near = np.abs((self.simulated[best] - self.measured[0]) / self.measured[1]) <= 2.0
+        values, deviations = self.measured
+        near = np.abs((self.simulated[int(np.nanargmin(self.misfits))] - values) / deviations) <= 2.0
         return f"best design: {near.sum()} of {len(near)} points within 2 sigma"
 
     def likelihood(self) -> Likelihood:
@@ -114,20 +115,15 @@ class Calibration:
         cube, simulated = np.array(self.cube), np.array(self.simulated)
         done = np.isfinite(simulated)
         if done.sum(axis=0).min() < 4:
-            raise ValueError(
-                "calibrate: fewer than 4 designs could be run to their end; narrower ranges of the numbers, or friction "
-                "and damping at which runs do not diverge"
-            )
-        none = np.zeros(len(cube))
-        calls = [
-            partial(fit, cube[known], column[known], none[known], self.numbers.seed)
-            for column, known in zip(simulated.T, done.T, strict=True)
-        ]
+            remedy = "narrower ranges of the numbers, or friction and damping at which runs do not diverge"
+            raise ValueError(f"calibrate: fewer than 4 designs could be run to their end; {remedy}")
+        columns, seed = zip(simulated.T, done.T, strict=True), self.numbers.seed
+        calls = [partial(fit, cube[known], column[known], np.zeros(known.sum()), seed) for column, known in columns]
         fits = tuple(self.run_all(calls, "surrogates"))
         # the last designs lie where the measurements leave most possible
         means, sure = np.array(self.predicted[-_LATER:]).reshape(-1, 2, len(values)).swapaxes(0, 1)
         errors = np.where(done, simulated, nan)[len(simulated) - len(means) :] - means
-        return Likelihood(fits, values, deviations, fit_chance(cube, done.all(axis=1), self.numbers.seed), (errors, sure))
+        return Likelihood(fits, values, deviations, fit_chance(cube, done.all(axis=1), seed), (errors, sure))
 
     def posterior(self) -> tuple[Likelihood, np.ndarray, np.ndarray]:
         """The likelihood, draws over the unit cube and the logarithm of the likelihood there, the most likely first."""
@@ -142,10 +138,8 @@ class Calibration:
         if not self.cube:
             return list(sobol_points(numbers, 1 << (count - 1).bit_length(), seed).values())[:count]
         variables = [SearchVariable(number.name, 0.0, 1.0) for number in self.numbers.spreads]
-        tried = [
-            Design(f"{place}", point, (misfit,), (nan,), ())
-            for place, (point, misfit) in enumerate(zip(self.cube, self.misfits.tolist(), strict=True))
-        ]
+        known = enumerate(zip(self.cube, self.misfits.tolist(), strict=True))
+        tried = [Design(f"{place}", point, (misfit,), (nan,), ()) for place, (point, misfit) in known]
         chosen, likelihood = [*propose(variables, tried, 1, seed)], self.likelihood()
         cube, _ = draws(likelihood.log, numbers, _ROUND_DRAWS, seed + len(self.cube))
         _, deviations = likelihood.residuals(cube)

@@ -18,16 +18,15 @@ def compared(
     `simulated`: of each measurement `values` at its points, None where a run diverged, `scatter` of these by a small change of
     friction, and a `remark`. `errors`: relative error by mesh and step of each blade and scene, NaN where it is not known.
     """
-    return pd.concat([_rows(each, simulated[name], errors) for name, each in measurements.items()], ignore_index=True)
+    rows = [_rows(each, simulated[name], errors[each.blade, each.scene]) for name, each in measurements.items()]
+    return pd.concat(rows, ignore_index=True)
 
 
-def _rows(measurement: Measurement, simulated: Mapping[str, Any], errors: Mapping[tuple[str, str], float]) -> pd.DataFrame:
-    points = measurement.points
-    values = np.array([inf if value is None else value for value in simulated["values"]])
-    error = np.nan_to_num(errors[measurement.blade, measurement.scene])
-    scatter = np.array([0.0 if value is None else value for value in simulated["scatter"]])
-    is_finite = np.isfinite(values)
-    uncertainty = np.where(is_finite, np.hypot(error * np.where(is_finite, values, 0.0), scatter), 0.0)
+def _rows(measurement: Measurement, simulated: Mapping[str, Any], error: float) -> pd.DataFrame:
+    points, known = measurement.points, np.array([value is not None for value in simulated["values"]])
+    values, scatter = (np.nan_to_num(np.array(simulated[name], float)) for name in ("values", "scatter"))
+    uncertainty = np.where(known, np.hypot(np.nan_to_num(error) * values, scatter), 0.0)
+    values = np.where(known, values, inf)
     both = np.hypot(points.deviations, uncertainty)
     return pd.DataFrame(
         {

@@ -68,26 +68,19 @@ class Evaluation:
 
     def _design(self, name: str, values: Mapping[VariedNumber, float]) -> Values | str:
         simulated: Values = {}
+        settings = self.settings
         try:
             for (blade, scene), observed in self.blades.items():
-                settings = self.settings
                 changed, other = settings.made(Calibrated).changed(blade, scene, values)
-                folder = self.folder / name / blade / scene
-                parts = replace(observed.parts, folder=folder)
+                made_of = observed.parts.made_of
                 if changed.elastic != settings.blades[blade].elastic:
                     varied = varied_settings(settings, {blade: changed}, {})
-                    self.structures.mkdir(parents=True, exist_ok=True)
-                    attributes = structure_attributes(settings, blade)
-                    file = blade_sweep(varied, blade, scene, kept=False).file("contact_model", self.structures, attributes)
-                    observed = replace(observed, model=read_contact_model(file))
-                    parts = replace(parts, made_of=[content_digest(file), observed.parts.made_of])
-                for measured, numbers_at, _ in replace(observed, parts=parts).simulated(other):
-                    simulated[measured] = np.nan_to_num(numbers_at, nan=inf).tolist()
+                    (structures := self.folder / STRUCTURES).mkdir(parents=True, exist_ok=True)
+                    sweep, attributes = blade_sweep(varied, blade, scene, kept=False), structure_attributes(settings, blade)
+                    file = sweep.file("contact_model", structures, attributes)
+                    observed, made_of = replace(observed, model=read_contact_model(file)), [content_digest(file), made_of]
+                runs = replace(observed, parts=Parts(self.folder / name / blade / scene, made_of)).simulated(other)
+                simulated |= {measured: np.nan_to_num(at_points, nan=inf).tolist() for measured, at_points, _ in runs}
         except (ConfigError, ImpossibleValueError, BucklingError, NoEquilibriumError, NoRoomError) as error:
             return str(error)
         return simulated
-
-    @property
-    def structures(self) -> Path:
-        """Folder of models of changed blades."""
-        return self.folder / STRUCTURES

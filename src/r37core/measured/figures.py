@@ -1,6 +1,5 @@
 """Figures of measurements beside the simulation, and of a calibration."""
 
-from itertools import product
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -25,43 +24,39 @@ def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: Path = N
 
     `members`: file of the members under tolerances, where there are some.
     """
-    pair, sampled = (blade, scene), _sampled(members)
-    own = [(key[2], rows) for key, rows in groups(table) if key[:2] == pair]
+    own = [(quantity, rows) for (*pair, quantity, _), rows in groups(table) if pair == [blade, scene]]
+    sampled = None if members == NO_MEMBERS else _sampled(read_dataset(members), blade, scene)
     figure, grid = plt.subplots(len(own), 1, figsize=(style.PAGE, 0.4 + 2.1 * len(own)), squeeze=False)
     for axes, (quantity, rows) in zip(grid.flat, own, strict=True):
-        over_angle = rows["angle_deg"].notna().all()
-        places, label = (
-            (rows["angle_deg"], "casing angle (degrees)") if over_angle else (rows["speed_rad_s"], style.SPEED_LABEL)
-        )
+        rows = rows.assign(simulated=rows["simulated"].replace(np.inf, np.nan))
         unit, factor = shown_unit(rows["unit"].iloc[0])
+        column, label = "speed_rad_s", style.SPEED_LABEL
         if rows["engine_order"].nunique() > 1:
-            places, label = rows["engine_order"], "engine order"
+            column, label = "engine_order", "engine order"
+        elif rows["angle_deg"].notna().all():
+            column, label = "angle_deg", "casing angle (degrees)"
         curve = _CURVES.get(quantity)
-        if curve and pair in sampled:
-            part = sampled[pair][f"{curve}_quantile"].dropna("speed")
+        if curve and sampled:
+            part = sampled[f"{curve}_quantile"].dropna("speed")
             ends = factor * part.isel(quantile=[0, -1]).transpose("quantile", "speed").values
             axes.fill_between(part["speed"], *ends, color=style.COLOURS[4], alpha=0.3, label="tolerances")
-        simulated = factor * rows["simulated"].replace(np.inf, np.nan)
-        spread = 2.0 * factor * rows["simulated_uncertainty"]
-        ordered = np.argsort(places.to_numpy(), kind="stable")
-        axes.plot(places.iloc[ordered], simulated.iloc[ordered], "o-", markersize=3, label="simulated")
-        axes.fill_between(
-            places.iloc[ordered], (simulated - spread).iloc[ordered], (simulated + spread).iloc[ordered], alpha=0.2
+        ordered = rows.sort_values(column, kind="stable")
+        simulated, spread = factor * ordered["simulated"], 2.0 * factor * ordered["simulated_uncertainty"]
+        axes.plot(ordered[column], simulated, "o-", markersize=3, label="simulated")
+        axes.fill_between(ordered[column], simulated - spread, simulated + spread, alpha=0.2)
+        bars = 2.0 * factor * ordered["measured_uncertainty"]
+        axes.errorbar(
+            ordered[column], factor * ordered["measured"], bars, fmt="s", markersize=3, linewidth=0.8, label="measured"
         )
-        bars = 2.0 * factor * rows["measured_uncertainty"]
-        axes.errorbar(places, factor * rows["measured"], bars, fmt="s", markersize=3, linewidth=0.8, label="measured")
         axes.set(xlabel=label, ylabel=f"{quantity}\n({unit or '1'})", title=words(rows).split("; ")[0])
     grid.flat[0].legend()
     return figure
 
 
-def _sampled(members: Path) -> dict[tuple[str, str], xr.Dataset]:
-    """Part of the members' dataset of each blade and scene that it has."""
-    if members == NO_MEMBERS:
-        return {}
-    dataset = read_dataset(members)
-    pairs = product(dataset["blade"].values, dataset["scene"].values)
-    return {(blade, scene): dataset.sel(blade=blade, scene=scene) for blade, scene in pairs}
+def _sampled(members: xr.Dataset, blade: str, scene: str) -> xr.Dataset | None:
+    """Part of a blade in a scene, where there is one."""
+    is_there = blade in members["blade"].values and scene in members["scene"].values
+    return members.sel(blade=blade, scene=scene) if is_there else None
 
 
 def draw_calibration(calibration: xr.Dataset) -> Figure:
@@ -73,17 +68,16 @@ def draw_calibration(calibration: xr.Dataset) -> Figure:
         for (low, high), width in (((0.025, 0.975), 1.5), ((0.16, 0.84), 5.0)):
             left.plot(shares.quantile([low, high]), [place, place], color=style.COLOURS[0], linewidth=width)
         left.plot(shares.values[0], place, "o", color=style.COLOURS[1], markersize=5)
-    left.set(
-        yticks=range(count), yticklabels=calibration["number"].values, xlim=(0, 1), xlabel="share of the distribution before"
-    )
+    left.set(yticks=range(count), yticklabels=calibration["number"].values)
+    left.set(xlim=(0, 1), xlabel="share of the distribution before")
     # of each measurement in units of its largest value
     largest = calibration["measured"].groupby("measurement").max()
     scale = largest.sel(measurement=calibration["measurement"]).values
     places = np.arange(calibration.sizes["point"])
     low, middle, high = calibration["simulated"].values / scale
     right.errorbar(places, middle, [middle - low, high - middle], fmt="o", markersize=3, label="simulated, 95%")
-    right.errorbar(places + 0.2, calibration["measured"] / scale, 2.0 * calibration["deviation"] / scale, fmt="s", markersize=3,
-                   label="measured, 2 sigma")  # fmt: skip
+    measured, bars = calibration["measured"] / scale, 2.0 * calibration["deviation"] / scale
+    right.errorbar(places + 0.2, measured, bars, fmt="s", markersize=3, label="measured, 2 sigma")
     right.set(xlabel="measured point", ylabel="over the largest measured", ylim=(0, None))
     right.legend()
     return figure

@@ -17,9 +17,8 @@ def contents(measured: pd.DataFrame) -> list[dict[str, object]]:
     """Each measurement: blade, scene, title and unit, its axis, measured and simulated values, their deviations, and words."""
     panels: list[dict[str, object]] = []
     for (blade, scene, quantity, file), rows in groups(measured):
-        over_angle = rows["angle_deg"].notna().all()
+        axis = "angle_deg" if rows["angle_deg"].notna().all() else "speed_rad_s"
         numbers = {name: packed(rows[name].to_numpy(float)) for name in rows if rows[name].dtype.kind in "fi"}
-        axis = "angle_deg" if over_angle else "speed_rad_s"
         about = {"blade": blade, "scene": scene, "title": f"{quantity} ({Path(file).name})", "unit": rows["unit"].iloc[0]}
         panels.append(about | {"axis": axis, "words": words(rows)} | numbers)
     return panels

@@ -1,11 +1,8 @@
 """The plan of measurements and of a calibration: what is checked first, what is run, and where it lies."""
 
-from typing import Any
-
 from r37core.base.varied_number import BLADE
 from r37core.config import ConfigError, Settings
 from r37core.config.changed_numbers import ImpossibleValueError
-from r37core.config.section import ExtensionSection
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure, Panel
 from r37core.plans.extent import Pair
@@ -62,8 +59,8 @@ def simulations(settings: Settings) -> dict[Pair, int]:
     return {pair: runs * len({speed for each in own for speed in each.run_speeds}) for pair, own in several.items()}
 
 
-def _once(sweep: Sweep, section: ExtensionSection[Any]) -> paths.Wildcards:
-    return [{}] if sweep.settings.section(section) else []
+def _once(sweep: Sweep) -> paths.Wildcards:
+    return [{}] if sweep.settings.section(CALIBRATE) else []
 
 
 def _pairs(sweep: Sweep) -> paths.Wildcards:
@@ -74,7 +71,7 @@ MEASUREMENTS = Extension(
     name="measured",
     section=MEASURED,
     checks=(can_be_compared,),
-    targets=lambda sweep: {OBSERVED: _pairs(sweep), TABLE: _once(sweep, MEASURED)},
+    targets=lambda sweep: {OBSERVED: _pairs(sweep), TABLE: [{}] if _pairs(sweep) else []},
     offers={"measured": TABLE},
     figures=(
         Figure(
@@ -97,12 +94,12 @@ CALIBRATION = Extension(
     section=CALIBRATE,
     checks=(can_be_calibrated,),
     members=simulations,
-    targets=lambda sweep: dict.fromkeys((DATASET, NUMBERS, FOLDER), _once(sweep, CALIBRATE)),
+    targets=lambda sweep: dict.fromkeys((DATASET, NUMBERS, FOLDER), _once(sweep)),
     figures=(
         Figure(
             rule="calibration_figure",
             name="calibration",
-            runs=lambda sweep: _once(sweep, CALIBRATE),
+            runs=_once,
             draw="measured.figures.draw_calibration",
             files={"calibration": DATASET},
             label="calibration",

@@ -1,7 +1,6 @@
 """calibration.nc, calibration.csv and the files to go on with: what the measurements leave possible."""
 
 from collections.abc import Sequence
-from itertools import combinations
 
 import numpy as np
 import pandas as pd
@@ -33,41 +32,40 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
     likelihood, cube, logs = calibration.posterior()
     # the best first, and others evenly over the draws, which are sorted by their likelihood
     kept = np.unique(np.linspace(0, len(cube) - 1, min(count, len(cube))).astype(int))
-    numbers, best = calibration.numbers, cube[:1]
-    values = np.array([list(numbers.values(share).values()) for share in cube])
-    residuals, deviations = likelihood.residuals(best)
-    elsewhere = likelihood.elsewhere(cube)
-    points = [(each, place) for each in calibration.measurements.values() for place in range(len(each.points.values))]
+    numbers, measurements = calibration.numbers, calibration.measurements.values()
+    titles = [f"{each.blade} {each.scene}: {each.title}" for each in measurements for _ in each.points.values]
+    names = [number.name for number in numbers.spreads]
+    values, designs = (np.array([list(numbers.values(share).values()) for share in part]) for part in (cube, calibration.cube))
+    residuals, deviations = likelihood.residuals(cube[:1])
+    misfit, elsewhere = residuals[:, 0] / deviations[:, 0], likelihood.elsewhere(cube)
+    ends = np.quantile(cube, (0.025, 0.16, 0.84, 0.975), axis=0)
+    reaches_end = (ends[0] < _AT_END) | (ends[3] > 1.0 - _AT_END)
     means = np.array([fit.at(cube)[0] for fit in likelihood.fits])
     # the simulated value is the exponential of what the surrogates have
     ranges = np.exp(np.quantile(means, (0.025, 0.5, 0.975), axis=1)) - calibration.floors
-    normalised = np.where(elsewhere > 0.5, 0.0, residuals[:, 0] / deviations[:, 0])
-    degrees = max(int((elsewhere <= 0.5).sum()) - values.shape[1], 1)
-    chance = float(scipy.stats.chi2.cdf((normalised**2).sum(), degrees))
-    names = [number.name for number in numbers.spreads]
+    degrees = max(int((elsewhere <= 0.5).sum()) - len(names), 1)
+    chance = float(scipy.stats.chi2.cdf((np.where(elsewhere > 0.5, 0.0, misfit) ** 2).sum(), degrees))
     return xr.Dataset(
         {
             "value": (("draw", "number"), values[kept], about("", "drawn values, in the units of the keys")),
             "share": (("draw", "number"), cube[kept], about("1", "share of the number's distribution below a draw")),
             "best": ("number", values[0], about("", "most likely values")),
             "quantile": (("end", "number"), np.quantile(values, list(ENDS.values()), axis=0), about("", "ends of ranges")),
-            "width_share": ("number", _width(cube), about("1", "width of the 68% range over that before")),
-            "at_end": ("number", _reaches_end(cube), about("1", "1 where the 95% range reaches an end of the number's range")),
+            "width_share": ("number", (ends[2] - ends[1]) / 0.68, about("1", "width of the 68% range over that before")),
+            "at_end": ("number", reaches_end.astype(int), about("1", "1 where the 95% range reaches an end of the number's range")),
             "correlation": (("number", "number_2"), np.atleast_2d(np.corrcoef(cube.T)), about("1", "correlation of the draws")),
-            "measured": ("point", [each.points.values[place] for each, place in points], about("", "measured value")),
-            "deviation": ("point", [each.points.deviations[place] for each, place in points], about("", "its deviation")),
+            "measured": ("point", calibration.column("values"), about("", "measured value")),
+            "deviation": ("point", calibration.column("deviations"), about("", "its deviation")),
             "simulated": (("range", "point"), ranges, about("", "simulated: 2.5, 50 and 97.5% of the draws")),
-            "misfit": ("point", residuals[:, 0] / deviations[:, 0], about("1", "difference over uncertainty at the best")),
+            "misfit": ("point", misfit, about("1", "difference over uncertainty at the best")),
             "elsewhere": ("point", elsewhere, about("1", "probability that the point lies on another branch or is wrong")),
-            "design_value": (
-                ("design", "number"), [list(numbers.values(each).values()) for each in calibration.cube], about("", "values")
-            ),
+            "design_value": (("design", "number"), designs, about("", "values")),
             "design_misfit": ("design", calibration.misfits, about("1", "misfit, NaN where a run diverged")),
         },
         coords={
             "number": names, "number_2": names, "end": list(ENDS), "range": ["low", "median", "high"],
-            "measurement": ("point", [f"{each.blade} {each.scene}: {each.title}" for each, _ in points]),
-            "speed": ("point", [each.points.speeds[place] for each, place in points], about("rad s-1", "speed")),
+            "measurement": ("point", titles),
+            "speed": ("point", calibration.column("speeds"), about("rad s-1", "speed")),
         },
         attrs={
             "disagrees": int(chance > _SURE or (elsewhere > 0.5).mean() > 0.25),
@@ -77,25 +75,12 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
     )  # fmt: skip
 
 
-def _width(cube: np.ndarray) -> np.ndarray:
-    low, high = np.quantile(cube, (0.16, 0.84), axis=0)
-    return (high - low) / 0.68
-
-
-def _reaches_end(cube: np.ndarray) -> np.ndarray:
-    low, high = np.quantile(cube, (0.025, 0.975), axis=0)
-    return ((low < _AT_END) | (high > 1.0 - _AT_END)).astype(int)
-
-
 def number_table(dataset: xr.Dataset) -> pd.DataFrame:
     """A row for each number: best value, ranges, and what the measurements do not determine."""
-    rows = []
-    for name in dataset["number"].values:
-        number = dataset.sel(number=name)
-        ends = {str(end): float(number["quantile"].sel(end=end)) for end in dataset["end"].values}
-        row = {"number": name, "best": float(number["best"]), **ends, "width_share": float(number["width_share"])}
-        rows.append(row | {"note": "; ".join(notes(dataset, str(name)))})
-    return pd.DataFrame(rows)
+    names, best, width_share = (dataset[name].values for name in ("number", "best", "width_share"))
+    ranges = dict(zip(dataset["end"].values, dataset["quantile"].values, strict=True))
+    note = ["; ".join(notes(dataset, name)) for name in names]
+    return pd.DataFrame({"number": names, "best": best, **ranges, "width_share": width_share, "note": note})
 
 
 def notes(dataset: xr.Dataset, name: str) -> list[str]:
@@ -105,22 +90,16 @@ def notes(dataset: xr.Dataset, name: str) -> list[str]:
         lines.append("not identifiable by these measurements")
     elif number["at_end"]:
         lines.append("reaches an end of its range")
-    for first, second in combinations(dataset["number"].values, 2):
-        share = float(dataset["correlation"].sel(number=first, number_2=second))
-        if name in (first, second) and abs(share) > TOGETHER:
-            lines.append(f"identifiable only together with {second if name == first else first} (correlation {share:.2f})")
+    for other, share in zip(dataset["number_2"].values, number["correlation"].values, strict=True):
+        if other != name and abs(share) > TOGETHER:
+            lines.append(f"identifiable only together with {other} (correlation {share:.2f})")
     return lines
-
-
-def drawn_table(dataset: xr.Dataset) -> pd.DataFrame:
-    """Draws, a row each, by the names of the numbers: for tolerances.drawn_file."""
-    return pd.DataFrame(dataset["value"].values, columns=dataset["number"].values)
 
 
 def calibrated_scenes(settings: Settings, dataset: xr.Dataset, scenes: Sequence[str]) -> str:
     """Text of a file of scenes with the best values."""
-    entries = {}
-    best = {VariedNumber.named(str(name)): float(dataset["best"].sel(number=name)) for name in dataset["number"].values}
+    entries, names = {}, map(str, dataset["number"].values)
+    best = dict(zip(map(VariedNumber.named, names), dataset["best"].values.tolist(), strict=True))
     for scene in dict.fromkeys(scenes):
         entry = settings.scene_designs.entries[scene]
         content, known = entry.model_dump(exclude_none=True, exclude_unset=True), scene_numbers(entry)
@@ -128,6 +107,6 @@ def calibrated_scenes(settings: Settings, dataset: xr.Dataset, scenes: Sequence[
             if number.kind == SCENE and number.key in known:
                 content = with_value(content, number.key, float(f"{value:.6g}"))
         entries[f"{scene}-calibrated"] = content
-    others = [f"{number.key} {value:.6g}" for number, value in best.items() if number.kind != SCENE]
-    blade_line = f"# Numbers of the blade: {', '.join(others)}.\n" if others else ""
+    others = ", ".join(f"{number.key} {value:.6g}" for number, value in best.items() if number.kind != SCENE)
+    blade_line = f"# Numbers of the blade: {others}.\n" if others else ""
     return f"# Most likely values of a calibration; calibration.csv has their ranges.\n{blade_line}{yaml_text(entries)}"

@@ -3,13 +3,13 @@
 import hashlib
 import json
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from r37core.base.dataset_file import write_dataset
 from r37core.base.io import JOB_NEWS, Named, as_list, read_json, write_json, write_text
@@ -26,7 +26,7 @@ from .comparison import compared
 from .evaluation import Evaluation, observed_blade
 from .measurement_plan import Measured
 from .points import Measurement
-from .posterior import calibrated_scenes, calibration_dataset, drawn_table, number_table
+from .posterior import calibrated_scenes, calibration_dataset, number_table
 
 _SLIGHTLY_MORE = 1.001
 """Factor of friction that shows by chance how much a value changes."""
@@ -41,12 +41,11 @@ def observe(input: Any, output: Any, params: Any) -> None:
     scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
     blade = observed_blade(input, measurements, choice, params.tip_line, Path(output.observed).parent / "observed")
     slightly = scene.friction and replace(scene.friction, coefficient=_SLIGHTLY_MORE * scene.friction.coefficient)
-    others = blade.simulated(replace(scene, friction=slightly)) if slightly else blade.simulated(scene)
+    others = blade.simulated(replace(scene, friction=slightly))
     numbers = {}
     for (name, values, remark), (_, other, _) in zip(blade.simulated(scene), others, strict=True):
         with np.errstate(invalid="ignore"):
-            scatter = np.abs(other - values)
-        known = {"values": values, "scatter": scatter}
+            known = {"values": values, "scatter": np.abs(other - values)}
         finite = {key: [each if math.isfinite(each) else None for each in part.tolist()] for key, part in known.items()}
         numbers[name] = finite | {"remark": remark}
     write_json(numbers, output.observed)
@@ -70,18 +69,15 @@ def calibrate(input: Any, output: Any, params: Any) -> None:
     settings, folder = params.carried.settings, Path(output.folder).parent / ".calibration"
     calibrated, measured = settings.made(Calibrated), settings.made(Measured)
     run_all = partial(forked_results, params.cores)
-    blades = {
-        (blade, scene): observed_blade(
-            files,
-            measured.pair_measurements((blade, scene)),
-            settings.integration_choice(blade, scene, 0.0),
-            settings.scenes[scene].tip_line,
-            folder,
-        )
-        for (blade, scene), files in zip(measured.pairs, _lists(input), strict=True)
-    }
+    # inputs are lists of files, of each blade and scene
+    columns = {name: as_list(files) for name, files in input.items() if name != "prepared"}
+    blades, every = {}, {}
+    for pair, *files in zip(measured.pairs, *columns.values(), strict=True):
+        choice, tip_line = settings.integration_choice(*pair, 0.0), settings.scenes[pair[1]].tip_line
+        own = measured.pair_measurements(pair)
+        blades[pair] = observed_blade(Named(**dict(zip(columns, files, strict=True))), own, choice, tip_line, folder)
+        every |= own
     numbers = Numbers(calibrated.spreads, calibrated.nominal, calibrated.section.seed)
-    every = {name: each for pair in measured.pairs for name, each in measured.pair_measurements(pair).items()}
     calibration = Calibration(every, numbers, run_all)
     calibration.run(calibrated.budget, Evaluation(settings, blades, folder, run_all).simulate, JOB_NEWS.info)
     designs = json.dumps(to_plain([calibration.cube, [part.tolist() for part in calibration.simulated]]))
@@ -92,11 +88,6 @@ def calibrate(input: Any, output: Any, params: Any) -> None:
     write_table(number_table(dataset), output.table, digits=6)
     results = Path(output.folder)
     results.mkdir(parents=True)
-    write_table(drawn_table(dataset), results / "members.csv", digits=9)
+    draws = pd.DataFrame(dataset["value"].values, columns=dataset["number"].values)
+    write_table(draws, results / "members.csv", digits=9)
     write_text(calibrated_scenes(settings, dataset, [scene for _, scene in measured.pairs]), results / "calibrated_scenes.yaml")
-
-
-def _lists(input: Any) -> Iterator[Named]:
-    """Files of each blade and scene, of a job whose inputs are lists of them."""
-    columns = {name: as_list(files) for name, files in input.items() if name != "prepared"}
-    return (Named(**dict(zip(columns, files, strict=True))) for files in zip(*columns.values(), strict=True))
