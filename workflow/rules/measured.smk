@@ -2,6 +2,7 @@
 from r37core.measured import plan as measured_plan
 from r37core.measured.calibration_plan import Calibrated
 from r37core.measured.measurement_plan import Measured
+from r37core.plans.carried import Carried
 
 measured = settings.made(Measured)
 calibrated = settings.made(Calibrated)
@@ -17,8 +18,8 @@ use rule step as observed with:
     params:
         **step("measured.steps.observe"),
         scene=sweep.plain_scene,
-        choice=measured.choice,
-        measurements=measured.plain_measurements,
+        choice=lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
+        measurements=lambda wildcards: to_plain(measured.pair_measurements((wildcards.blade, wildcards.scene))),
         tip_line=lambda wildcards: settings.scenes[wildcards.scene].tip_line,
 
 
@@ -52,5 +53,5 @@ use rule step as calibration with:
         mem_mb=lambda wildcards, threads: (memory_of_model + 300) * threads,
     params:
         **step("measured.steps.calibrate"),
-        carried=calibrated.carried,
+        carried=lambda wildcards: Carried(settings),
         made_of=calibrated.made_of,

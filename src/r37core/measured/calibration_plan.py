@@ -15,7 +15,6 @@ from r37core.config.changed_numbers import changed_pair, check_known, nominal_va
 from r37core.config.section import plain
 from r37core.config.spread import SpreadEntry
 from r37core.contact.scene import Scene
-from r37core.plans.carried import Carried
 
 from .measurement_plan import Measured
 from .section import CALIBRATE, CalibrateSection
@@ -25,7 +24,7 @@ _LENGTH = VariedNumber(SCENE, "lining.contact_length_m")
 
 @dataclass(frozen=True)
 class Calibrated:
-    """Plan of the calibration that `settings` ask for. Methods with `wildcards` are parameters of its rule."""
+    """Plan of the calibration that `settings` ask for."""
 
     settings: Settings
 
@@ -100,10 +99,6 @@ class Calibrated:
         spreads = {number.name: plain(spread) for number, spread in self.spreads.items()}
         measured = to_plain(self.settings.made(Measured).all)
         return [scenes, choices, measured, self.section.model_dump(), spreads, self.nominal]
-
-    def carried(self, wildcards: Any) -> Carried:
-        """The settings, of which designs are made."""
-        return Carried(self.settings)
 
     def changed(self, blade: str, scene: str, values: Mapping[VariedNumber, float]) -> tuple[BladeSettings, Scene]:
         """A blade and a scene with those of the values that they have. Raises ConfigError and ImpossibleValueError."""

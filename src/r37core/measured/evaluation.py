@@ -28,7 +28,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .calibration_plan import Calibrated
 from .observed import ObservedBlade
-from .points import STRAIN, TIP_TIMING, Measurement
+from .points import TIP_TIMING, Measurement
 
 Values = dict[str, list[float]]
 
@@ -42,12 +42,11 @@ def observed_blade(
     """
     made_of = [content_digest(files.model), code_of("measured.steps.observe")]
     blade = ObservedBlade(read_contact_model(files.model), choice, measurements, Parts(folder, made_of))
-    strains = [each.gauge for each in measurements.values() if each.quantity == STRAIN]
+    strains = [each.gauge for each in measurements.values() if each.gauge is not None]
     if strains:
         whole = read_reduced_model(files.whole).whole_blade
         assert whole is not None
-        rows, _ = gauge_rows(read_vtu(files.mesh), whole.basis, strains)  # type: ignore[arg-type]
-        blade = replace(blade, strains=rows)
+        blade = replace(blade, strains=gauge_rows(read_vtu(files.mesh), whole.basis, strains)[0])
     if any(each.quantity == TIP_TIMING for each in measurements.values()):
         blade = replace(blade, tip=read_reduced_model(files.rom).tip_lines[tip_line])
     return blade

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from r37core.base.plain import to_plain
 from r37core.config import ConfigError, Settings
 from r37core.config.declaring import si_form
 from r37core.config.messages import single_line
@@ -26,7 +25,7 @@ NEAR, _FEWEST = 0.05, 5
 
 @dataclass(frozen=True)
 class Measured:
-    """Measurements that `settings` ask for. Methods with `wildcards` are inputs and parameters of rules."""
+    """Measurements that `settings` ask for."""
 
     settings: Settings
 
@@ -45,10 +44,6 @@ class Measured:
         """Measurements of a blade in a scene, by their names."""
         return {name: each for name, each in self.all.items() if (each.blade, each.scene) == pair}
 
-    def plain_measurements(self, wildcards: Any) -> dict[str, Any]:
-        """Measurements of a blade in a scene, as plain values."""
-        return to_plain(self.pair_measurements((wildcards.blade, wildcards.scene)))
-
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """Files that the runs of a blade and scene start from."""
         sweep, where = Sweep(self.settings), {"blade": wildcards.blade, "scene": wildcards.scene}
@@ -59,10 +54,6 @@ class Measured:
         if STRAIN in quantities:
             files |= {"mesh": paths.fill(paths.MESH, **where), "whole": Structure(self.settings).whole_blade_model(wildcards)}
         return files
-
-    def choice(self, wildcards: Any) -> dict[str, Any]:
-        """Time integration of a run: that of the sweep."""
-        return to_plain(self.settings.integration_choice(wildcards.blade, wildcards.scene, 0.0))
 
     def _read(self, number: int, entry: MeasurementSection) -> Measurement:
         # reading tables takes pandas, which a run without measurements does not load

@@ -43,8 +43,7 @@ class ObservedBlade:
         """Name of each measurement, simulated values at its points, and a remark. Raises what a simulation raises."""
         speeds = sorted({speed for each in self.measurements.values() for speed in each.run_speeds})
         made_of = (scene, self.choice, [each.observes for each in self.measurements.values()])
-        files = {speed: self.parts.file(speed, made_of, partial(self._run, scene, speed)) for speed in speeds}
-        runs = {speed: read_speed(file) for speed, file in files.items()}
+        runs = {speed: read_speed(self.parts.file(speed, made_of, partial(self._run, scene, speed))) for speed in speeds}
         for name, measurement in self.measurements.items():
             yield name, *measurement.simulated(runs, name)
 
@@ -54,12 +53,12 @@ class ObservedBlade:
         kept = self.choice.revolutions_in_statistic if samples else 0
         choice = replace(self.choice, snapshots_per_revolution=samples, snapshot_revolutions=kept)
         run = Simulation(self.model, speed, scene, choice).run()
-        ended = run.first_diverged
-        numbers = {"status": np.array(int(RunStatus.COMPLETED if ended is None else RunStatus.DIVERGED))}
+        is_done = run.first_diverged is None
+        numbers = {"status": np.array(int(RunStatus.COMPLETED if is_done else RunStatus.DIVERGED))}
         for name, measurement in self.measurements.items():
             if measurement.quantity == WORN_DEPTH:
                 numbers[name] = self._worn(run, measurement)
-            elif ended is not None:
+            elif not is_done:
                 numbers[name] = np.full(len(measurement.wanted_orders), np.inf)
             else:
                 signal, samples = self._signal(run, measurement)
@@ -82,8 +81,7 @@ class ObservedBlade:
         first = max(end - self.choice.revolutions_in_statistic, 0)
         if measurement.quantity == STRAIN:
             strains = [each for each in self.measurements.values() if each.quantity == STRAIN]
-            rows = self.strains @ self.model.to_reduced @ run.problem.contact.state_shapes
-            row = rows[next(place for place, each in enumerate(strains) if each is measurement)]
+            row = (self.strains @ self.model.to_reduced @ run.problem.contact.state_shapes)[strains.index(measurement)]
             return record.snapshots[-(end - first) * per_revolution :, : len(row)] @ row, per_revolution
         point = TIP_POINTS.index(measurement.tip_point)
         tip = record.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS))[: end * per_revolution, point]
@@ -105,6 +103,4 @@ def statistic(signal: np.ndarray, samples: int, measurement: Measurement, order:
     if order:
         turn = np.exp(-2j * np.pi * order * np.arange(len(signal)) / samples)
         return float(2.0 * np.abs(np.mean(signal * turn)))
-    if measurement.statistic == HALF_PEAK_TO_PEAK:
-        return float(0.5 * np.ptp(signal))
-    return float(np.sqrt(np.mean(signal**2)))
+    return float(0.5 * np.ptp(signal) if measurement.statistic == HALF_PEAK_TO_PEAK else np.sqrt(np.mean(signal**2)))

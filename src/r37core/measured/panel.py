@@ -15,7 +15,7 @@ from .posterior import number_table
 
 def contents(measured: pd.DataFrame) -> list[dict[str, object]]:
     """Each measurement: blade, scene, title and unit, its axis, measured and simulated values, their deviations, and words."""
-    panels: list[dict[str, object]] = []
+    panels = []
     for (blade, scene, quantity, file), rows in groups(measured):
         axis = "angle_deg" if rows["angle_deg"].notna().all() else "speed_rad_s"
         numbers = {name: packed(rows[name].to_numpy(float)) for name in rows if rows[name].dtype.kind in "fi"}
@@ -40,9 +40,9 @@ def closing_of_calibration(results: Path) -> str:
         f"{row.number} {row.best:.3g} ({row.low_95:.3g} to {row.high_95:.3g}{'; ' + row.note if row.note else ''})"
         for row in number_table(dataset).itertuples()
     ]
-    elsewhere = dataset["speed"].values[dataset["elsewhere"].values > 0.5]
-    if len(elsewhere):
-        lines.append(f"on another branch or wrong: {', '.join(f'{speed:.5g}' for speed in elsewhere[:4])} rad/s")
+    elsewhere = [f"{speed:.5g}" for speed in dataset["speed"].values[dataset["elsewhere"].values > 0.5]]
+    if elsewhere:
+        lines.append(f"on another branch or wrong: {', '.join(elsewhere[:4])} rad/s")
     if dataset.attrs["disagrees"]:
         lines.append("no values in these ranges agree with the measurements: the model lacks something, and ranges mean little")
     return ", ".join(lines)

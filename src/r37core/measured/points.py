@@ -110,10 +110,9 @@ def feature_speed(speeds: np.ndarray, values: np.ndarray, limit: float | None) -
             return float(speeds[place]) if is_finite else np.inf
         curvature, slope, _ = np.polyfit(speeds[place - 1 : place + 2] - speeds[place], values[place - 1 : place + 2], 2)
         return float(speeds[place] - (0.5 * slope / curvature if curvature < 0.0 else 0.0))
-    above = np.flatnonzero(values > limit)
-    if not above.size:
+    if not (values > limit).any():
         return np.inf
-    place = int(above[0])
+    place = int((values > limit).argmax())
     if place == 0 or not np.isfinite(values[place]):
         return float(speeds[place])
     return float(np.interp(limit, values[place - 1 : place + 1], speeds[place - 1 : place + 1]))
@@ -138,7 +137,7 @@ def turned_profile(wear: np.ndarray, points: Points) -> tuple[np.ndarray, str]:
         turn = int(misfit.argmin())
         return float(misfit[turn]), float(turns[turn]), profiles[turn]
 
-    (misfit, turn, profile), (backwards, _, _) = best(1.0), best(-1.0)
+    (misfit, turn, profile), (backwards, *_) = best(1.0), best(-1.0)
     remark = f"turned by {np.degrees(turn):.3g} degrees"
     if backwards < 0.5 * misfit and misfit - backwards > 9.0:
         remark += "; fits better when its angles are read backwards"

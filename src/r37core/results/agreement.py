@@ -1,5 +1,6 @@
 """Agreement of measured and simulated values in measured.csv: judged, told and drawn by the same functions."""
 
+from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -38,8 +39,8 @@ def words(rows: pd.DataFrame) -> str:
     far = rows[~inside]
     farthest = far.loc[far["difference_over_uncertainty"].abs().sort_values(ascending=False).index[:_MOST_NAMED]]
     ratios = [_ratio(row) for _, row in farthest.sort_values("speed_rad_s").iterrows()]
-    remark = str(rows["remark"].iloc[0] or "") if rows["remark"].notna().any() else ""
-    return "; ".join([text, *ratios, *([remark] if remark else [])])
+    remarks = rows["remark"].dropna().astype(str).tolist()[:1]
+    return "; ".join(filter(None, [text, *ratios, *remarks]))
 
 
 def _ratio(row: Any) -> str:
@@ -55,8 +56,5 @@ def _ratio(row: Any) -> str:
 
 def disagreements(table: pd.DataFrame) -> dict[tuple[str, str], str]:
     """Blade and scene -> a note on its measurements that disagree, of those that have some."""
-    counts: dict[tuple[str, str], int] = {}
-    for (blade, scene, *_), rows in groups(table):
-        if disagrees(rows):
-            counts[blade, scene] = counts.get((blade, scene), 0) + 1
+    counts = Counter((blade, scene) for (blade, scene, *_), rows in groups(table) if disagrees(rows))
     return {pair: f"simulation disagrees with {counted(count, 'measurement')} (measured.csv)" for pair, count in counts.items()}
