@@ -68,10 +68,11 @@ class Calibration:
             new = self._next(count)
             named = {f"c{len(self.cube) + place:04d}": self.numbers.values(point) for place, point in enumerate(new)}
             for point, gave in zip(new, simulate(named), strict=True):
-                lost = isinstance(gave, str)
-                values = self.floors + inf if lost else np.concatenate([gave[name] for name in self.measurements])
                 self.cube.append(point)
-                self.simulated.append(self.scaled(values))
+                each = (
+                    self.floors + inf if isinstance(gave, str) else np.concatenate([gave[name] for name in self.measurements])
+                )
+                self.simulated.append(self.scaled(each))
 
     @cached_property
     def floors(self) -> np.ndarray:

@@ -101,9 +101,8 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     numbers = {name: part[known] for name, part in numbers.items()}
     if _SPEED not in numbers:
         if (speed := si_fields(entry).get("speed")) is None:
-            raise MeasurementError(
-                "speed_rad_s", f"found no column with a speed, in rad/s or rpm, among {table.header}; allowed: this key"
-            )
+            found = f"found no column with a speed, in rad/s or rpm, among {table.header}"
+            raise MeasurementError("speed_rad_s", f"{found}; allowed: this key")
         numbers[_SPEED] = np.full(len(numbers["value"]), speed)
     if (slow := numbers[_SPEED] <= 0.0).any():
         raise MeasurementError("file", f"found a speed of {numbers[_SPEED][slow][0]:g} rad/s; allowed: above 0")
@@ -112,7 +111,10 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     if (negative := numbers["value"] < 0.0).any():
         raise MeasurementError("value", f"found {value.title} {numbers['value'][negative][0]:g}; allowed: 0 or more")
     if value.kind == _SPEED:
-        return _single_speed(numbers, entry), ()
+        # one speed in place of a curve
+        if known.sum() > 1:
+            raise MeasurementError("rows", f"found {known.sum()} speeds of a {entry.speed_of}; allowed: one row, or a curve")
+        return Points.collected(numbers[_SPEED], numbers[_SPEED], _deviations(numbers, entry)), ()
     if entry.quantity == WORN_DEPTH and _ANGLE in numbers:
         return _profile(numbers, entry), ()
     return _over_speeds(numbers, entry, int((~known).sum()))
@@ -155,14 +157,6 @@ def _deviations(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) ->
     if not values.any():
         raise MeasurementError("uncertainty_percent", "found values that are all 0; allowed: a column 'uncertainty' for them")
     return 0.01 * entry.uncertainty_percent * np.maximum(values, 0.1 * values.max())
-
-
-def _single_speed(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:
-    """The one speed that a file has in place of a curve."""
-    speeds = numbers[_SPEED]
-    if len(speeds) > 1:
-        raise MeasurementError("rows", f"found {len(speeds)} speeds of a {entry.speed_of}; allowed: one row, or a curve")
-    return Points.collected(speeds, speeds, _deviations(numbers, entry))
 
 
 def _over_speeds(

@@ -32,8 +32,9 @@ class Points:
     @classmethod
     def collected(cls, speeds: Any, values: np.ndarray, deviations: Any, orders: Any = 0, **others: Any) -> Self:
         """Points of arrays of shape (points,), or of one speed, deviation or order that all have; `others`: further fields."""
-        columns = (tuple(np.broadcast_to(part, values.shape).tolist()) for part in (speeds, values, deviations, orders))
-        return cls(*columns, **others)
+        columns = (np.broadcast_to(part, values.shape).tolist() for part in (speeds, values, deviations, orders))
+        places, measured, sure, numbers = map(tuple, columns)
+        return cls(places, measured, sure, numbers, **others)
 
 
 @dataclass(frozen=True)

@@ -71,12 +71,12 @@ def calibrate(input: Any, output: Any, params: Any) -> None:
     run_all = partial(forked_results, params.cores)
     # inputs are lists of files, of each blade and scene
     columns = {name: as_list(files) for name, files in input.items() if name != "prepared"}
-    blades, every = {}, {}
+    blades = {}
     for pair, *files in zip(measured.pairs, *columns.values(), strict=True):
         choice, tip_line = settings.integration_choice(*pair, 0.0), settings.scenes[pair[1]].tip_line
-        own = measured.pair_measurements(pair)
-        blades[pair] = observed_blade(Named(**dict(zip(columns, files, strict=True))), own, choice, tip_line, folder)
-        every |= own
+        named, own = Named(**dict(zip(columns, files, strict=True))), measured.pair_measurements(pair)
+        blades[pair] = observed_blade(named, own, choice, tip_line, folder)
+    every = {name: each for blade in blades.values() for name, each in blade.measurements.items()}
     numbers = Numbers(calibrated.spreads, calibrated.nominal, calibrated.section.seed)
     calibration = Calibration(every, numbers, run_all)
     calibration.run(calibrated.budget, Evaluation(settings, blades, folder, run_all).simulate, JOB_NEWS.info)
