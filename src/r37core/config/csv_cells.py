@@ -23,8 +23,8 @@ def read_cells(file: Path) -> pd.DataFrame:
         cells = pd.read_csv(io.StringIO(text), sep=separator, comment="#", dtype=str, skipinitialspace=True)
     except (OSError, TextFileError, ValueError) as error:
         # those of pandas are ValueErrors
-        found = single_line(getattr(error, "strerror", None) or str(error).strip())
-        raise ConfigError(f"{found}; allowed: a CSV with a header, and rows of as many cells") from None
+        reason = single_line(getattr(error, "strerror", None) or str(error).strip())
+        raise ConfigError(f"{reason}; allowed: a CSV with a header, and rows of as many cells") from None
     if not isinstance(cells.index, pd.RangeIndex):
         raise ConfigError("found rows with more cells than the header; allowed: as many, and decimal points")
     return cells.rename(columns=str.strip)

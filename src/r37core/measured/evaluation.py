@@ -79,7 +79,7 @@ class Evaluation:
                     file = sweep.file("contact_model", structures, attributes)
                     observed, made_of = replace(observed, model=read_contact_model(file)), [content_digest(file), made_of]
                 runs = replace(observed, parts=Parts(self.folder / name / blade / scene, made_of)).simulated(other)
-                simulated |= {measured: np.nan_to_num(at_points, nan=inf).tolist() for measured, at_points, _ in runs}
+                simulated |= {measured: np.nan_to_num(numbers, nan=inf).tolist() for measured, numbers, _ in runs}
         except (ConfigError, ImpossibleValueError, BucklingError, NoEquilibriumError, NoRoomError) as error:
             return str(error)
         return simulated

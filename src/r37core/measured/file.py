@@ -67,8 +67,8 @@ class _Table:
         fitting = [each for each in self.columns if (each.kind, each.is_uncertainty) == (kind, uncertain)]
         fitting = [each for each in fitting if title in (None, each.title)]
         if len(fitting) > 1 or (title and not fitting):
-            found = f"'{title}'" if title else f"{len(fitting)} columns with a {kind}"
-            raise MeasurementError(key, f"found {found}; allowed: one column with a {kind} of the header: {self.header}")
+            problem = f"'{title}'" if title else f"{len(fitting)} columns with a {kind}"
+            raise MeasurementError(key, f"found {problem}; allowed: one column with a {kind} of the header: {self.header}")
         return fitting[0] if fitting else None
 
     def numbers(self, column: _Column) -> np.ndarray:
@@ -101,8 +101,8 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     numbers = {name: part[known] for name, part in numbers.items()}
     if _SPEED not in numbers:
         if (speed := si_fields(entry).get("speed")) is None:
-            found = f"found no column with a speed, in rad/s or rpm, among {table.header}"
-            raise MeasurementError("speed_rad_s", f"{found}; allowed: this key")
+            problem = f"found no column with a speed, in rad/s or rpm, among {table.header}"
+            raise MeasurementError("speed_rad_s", f"{problem}; allowed: this key")
         numbers[_SPEED] = np.full(len(numbers["value"]), speed)
     if (slow := numbers[_SPEED] <= 0.0).any():
         raise MeasurementError("file", f"found a speed of {numbers[_SPEED][slow][0]:g} rad/s; allowed: above 0")

@@ -61,8 +61,8 @@ class Measured:
 
         settings, document = self.settings, self.settings.documents.config
 
-        def refusal(key: str, found: str, allowed: str) -> ConfigError:
-            return document.refusal((MEASURED.name, number, key), found, allowed)
+        def refusal(key: str, value: str, allowed: str) -> ConfigError:
+            return document.refusal((MEASURED.name, number, key), value, allowed)
 
         for key, known in {"blade": settings.blade_names, "scene": settings.scene_names}.items():
             if (name := getattr(entry, key)) not in known:

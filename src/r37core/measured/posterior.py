@@ -39,7 +39,7 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
     residuals, deviations = likelihood.residuals(cube[:1])
     misfit, elsewhere = residuals[:, 0] / deviations[:, 0], likelihood.elsewhere(cube)
     ends = np.quantile(cube, (0.025, 0.16, 0.84, 0.975), axis=0)
-    at_end = ((ends[0] < _AT_END) | (ends[3] > 1.0 - _AT_END)).astype(int)
+    is_bounded = ((ends[0] < _AT_END) | (ends[3] > 1.0 - _AT_END)).astype(int)
     means = np.array([fit.at(cube)[0] for fit in likelihood.fits])
     # the simulated value is the exponential of what the surrogates have
     ranges = np.exp(np.quantile(means, (0.025, 0.5, 0.975), axis=1)) - calibration.floors
@@ -52,7 +52,7 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
             "best": ("number", values[0], about("", "most likely values")),
             "quantile": (("end", "number"), np.quantile(values, list(ENDS.values()), axis=0), about("", "ends of ranges")),
             "width_share": ("number", (ends[2] - ends[1]) / 0.68, about("1", "width of the 68% range over that before")),
-            "at_end": ("number", at_end, about("1", "1 where the 95% range reaches an end of the number's range")),
+            "at_end": ("number", is_bounded, about("1", "1 where the 95% range reaches an end of the number's range")),
             "correlation": (("number", "number_2"), np.atleast_2d(np.corrcoef(cube.T)), about("1", "correlation of the draws")),
             "measured": ("point", calibration.column("values"), about("", "measured value")),
             "deviation": ("point", calibration.column("deviations"), about("", "its deviation")),
