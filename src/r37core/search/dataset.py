@@ -19,17 +19,7 @@ from r37core.results.closing import counted
 
 from .gaussian_processes import Fit, fit
 from .plan import BEST, DATASET
-from .problem import (
-    FEWEST_DONE,
-    START,
-    UNKNOWN,
-    Design,
-    SearchChoice,
-    SearchVariable,
-    best_first,
-    not_dominated,
-    shares,
-)
+from .problem import FEWEST_DONE, START, UNKNOWN, Design, SearchChoice, SearchVariable, best_first, not_dominated, shares
 
 POINTS = 41
 """Number of points of a slice."""
