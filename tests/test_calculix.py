@@ -142,10 +142,7 @@ def test_fatigue_of_three_nodes(model, mesh, steel, tmp_path):
     moved = np.linspace(1.0, 2.0, len(contact))[:, None] * 1e-4 * np.array([0.2, -3.0, 1.0])
     number = moved.size
     held = [f"{contact[i] + 1}, {axis + 1}, {axis + 1}, {value:.12g}" for (i, axis), value in np.ndenumerate(moved)]
-    steps = {
-        "swing": ["*BOUNDARY", *held],
-        "rotation": ["*DLOAD", f"BLADE, CENTRIF, {SPEED**2}, 0, 0, 0, 0, 0, 1"],
-    }
+    steps = {"swing": ["*BOUNDARY", *held], "rotation": ["*DLOAD", f"BLADE, CENTRIF, {SPEED**2}, 0, 0, 0, 0, 0, 1"]}
     tensors = {}
     for name, load in steps.items():
         (tmp_path / name).mkdir()

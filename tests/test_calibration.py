@@ -14,10 +14,7 @@ from r37core.sweep.driver import one_by_one
 pytest.importorskip("sklearn")
 
 LENGTH, FRICTION = VariedNumber(SCENE, "lining.contact_length_m"), VariedNumber(SCENE, "friction.coefficient")
-SPREADS = {
-    LENGTH: SpreadEntry(log_between=[1e-4, 1e-2]),
-    FRICTION: SpreadEntry(between=[0.0, 0.5]),
-}
+SPREADS = {LENGTH: SpreadEntry(log_between=[1e-4, 1e-2]), FRICTION: SpreadEntry(between=[0.0, 0.5])}
 SPEEDS = tuple(np.linspace(100.0, 200.0, 8))
 
 

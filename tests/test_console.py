@@ -148,6 +148,25 @@ def test_no_run_is_silent(clock):
     progress.beat()
 
 
+def test_a_rule_that_runs_again_says_once_what_has_changed():
+    progress = Progress(0, io.StringIO())
+    before = "Params have changed since last execution: Union of exclusive params before and now across all output: "
+    for number, (rule, reason) in enumerate(
+        [
+            ("configuration", f"{before}before: 1 now: 2"),
+            ("geometry", f"{before}before: 'round' now: 'blunt'"),
+            ("geometry", f"{before}before: 'round' now: 'blunt'"),
+            ("response", "Missing output files: response.nc"),
+            ("mesh", "Updated input files: fan.msh"),
+            ("wear", f"Code has changed since last execution {'x' * 400}"),
+        ]
+    ):
+        said(progress, "job_info", "", jobid=number, rule_name=rule, wildcards={}, output=["a"], reason=reason)
+    told = [line for line in progress.stream.getvalue().splitlines() if "again" in line]
+    assert told[:2] == ["geometry runs again: before: 'round' now: 'blunt'", "mesh runs again: Updated input files: fan.msh"]
+    assert told[2].startswith("wear runs again: Code has changed") and len(told[2]) < 330 and told[2].endswith("...")
+
+
 def test_diverged_runs_are_counted(clock, tmp_path):
     for name, status in (("a", RunStatus.COMPLETED), ("b", RunStatus.DIVERGED)):
         write_speed({"status": np.array(int(status))}, tmp_path / f"{name}.npz", {})

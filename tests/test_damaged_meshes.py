@@ -22,12 +22,7 @@ def write_archive(mesh, file):
     meshlane.write(file, meshio.Mesh(mesh.points, dict(mesh.blocks)), file_format="ansysInp")
 
 
-WRITERS = {
-    "msh": write_mesh,
-    "bdf": write_mesh,
-    "inp": lambda mesh, file: write_deck(file),
-    "cdb": write_archive,
-}
+WRITERS = {"msh": write_mesh, "bdf": write_mesh, "inp": lambda mesh, file: write_deck(file), "cdb": write_archive}
 
 
 def cut_short(data, chance):

@@ -488,11 +488,7 @@ def test_another_form_of_a_file_is_the_same_blade(settings_with, text, name, mut
             "fan.geomTurbo",
             r"fan\.geomTurbo:8: .*found '\u00b2'; needed: how many sections",
         ),
-        (
-            TURBO.replace("units 1", "units 0.001"),
-            "fan.geomTurbo",
-            r"\.geomTurbo:5: .*units 0\.001; allowed: 1, with coo",
-        ),
+        (TURBO.replace("units 1", "units 0.001"), "fan.geomTurbo", r"\.geomTurbo:5: .*units 0\.001; allowed: 1, with coo"),
         (
             TURBO + TURBO,
             "fan.geomTurbo",

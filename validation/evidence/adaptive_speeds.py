@@ -122,10 +122,7 @@ def plain_grid(plan: SpeedPlan, step: float) -> list[float]:
 
 
 def compare(
-    response: xr.Dataset,
-    campbell: xr.Dataset,
-    speeds: Sequence[Sequence[float]],
-    interactions: InteractionChoice,
+    response: xr.Dataset, campbell: xr.Dataset, speeds: Sequence[Sequence[float]], interactions: InteractionChoice
 ) -> Outcome:
     """The interactions above yield that the `speeds` (rad/s) of each round show, against those of the whole grid."""
     run = sorted(speed for new in speeds for speed in new)

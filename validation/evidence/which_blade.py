@@ -140,10 +140,7 @@ def blade_of(file: str) -> str:
 
 def statistic(input: Any, output: Any, params: Any) -> None:
     """Scatter of what may be read off a run, against neighbours 1 rad/s away. Input: files, responses at every 1 rad/s."""
-    names = {
-        "last revolution": "max_von_mises_last_revolution",
-        "median of the last 100": "max_von_mises_median",
-    }
+    names = {"last revolution": "max_von_mises_last_revolution", "median of the last 100": "max_von_mises_median"}
     rows = [[blade_of(file), *(f"{scatter(read_judged(file)[name].values):.1f}" for name in names.values())] for file in input]
     write_table(["largest stress: scatter (%)", *names], rows, output.table)
 

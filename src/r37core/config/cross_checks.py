@@ -14,14 +14,7 @@ from r37core.base.units import RPM
 from r37core.base.yaml_file import KeyPath
 from r37core.machine_code.alignment import padded
 from r37core.results.operating_range import OperatingRange
-from r37core.rom.reduction_choice import (
-    LINEAR,
-    POINTS,
-    QUADRATIC,
-    ROTATING,
-    BoundaryError,
-    contact_positions,
-)
+from r37core.rom.reduction_choice import LINEAR, POINTS, QUADRATIC, ROTATING, BoundaryError, contact_positions
 from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_blades import NO_ROTOR

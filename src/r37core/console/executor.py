@@ -26,10 +26,7 @@ if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
 common_settings = CommonSettings(
-    non_local_exec=False,
-    implies_no_shared_fs=False,
-    job_deploy_sources=False,
-    auto_deploy_default_storage_provider=False,
+    non_local_exec=False, implies_no_shared_fs=False, job_deploy_sources=False, auto_deploy_default_storage_provider=False
 )
 
 PYTHON = sys.executable

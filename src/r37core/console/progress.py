@@ -44,6 +44,10 @@ _SILENT_S, _SILENT_ELSEWHERE_S = 10.0, 30.0
 """Longest time without a line, on a terminal and elsewhere, and how long a job runs before the line says for how long."""
 
 
+_MOST_CHANGES, _LONGEST_CHANGE = 3, 300
+"""Rules that are named as they run again, and letters of what has changed."""
+
+
 @dataclass
 class Progress(logging.Filter):
     """A filter for the handler of Snakemake's messages that keeps those about single jobs back and writes a line instead.
@@ -59,6 +63,7 @@ class Progress(logging.Filter):
     clock: Callable[[], float] = time.monotonic
     _jobs: dict[Any, tuple[str, str, str, float]] = field(default_factory=dict)
     _simulated: Counter[str] = field(default_factory=Counter)
+    _again: set[str] = field(default_factory=set)
     _diverged: int = 0
     _done: int = 0
     _known: int = 0
@@ -89,6 +94,7 @@ class Progress(logging.Filter):
             blade = (getattr(record, "wildcards", None) or {}).get("blade", "")
             about = (record.rule_name, blade, str(next(iter(output))), self.clock())  # type: ignore[attr-defined]
             self._jobs[record.jobid] = about  # type: ignore[attr-defined]
+            self._tell_change(record.rule_name, str(getattr(record, "reason", "")))  # type: ignore[attr-defined]
             if not self._simulated and self.stream.isatty():
                 # what takes half a minute is named when it begins, not when it has ended
                 self._write(immediately=True)
@@ -101,6 +107,16 @@ class Progress(logging.Filter):
         elif event == "progress":
             self._done, self._known = record.done, record.total  # type: ignore[attr-defined]
             self._write(immediately=record.done == record.total, last=record.done == record.total)  # type: ignore[attr-defined]
+
+    def _tell_change(self, rule: str, reason: str) -> None:
+        """Say once what has changed where jobs of a rule run again."""
+        changes = [part for part in reason.split("; ") if "changed since" in part or part.startswith("Updated input")]
+        # the file with the configuration changes with every key
+        if changes and rule not in {"configuration", *self._again} and len(self._again) < _MOST_CHANGES:
+            self._again.add(rule)
+            self._close_line()
+            text = " ".join(changes[0].split()).rpartition("across all output: ")[2]
+            self.stream.write(f"{rule} runs again: {text[:_LONGEST_CHANGE]}{'...' * (len(text) > _LONGEST_CHANGE)}\n")
 
     def line(self) -> str:
         """The line of progress now."""

@@ -20,10 +20,7 @@ from .table import MEASURES, STRUCTURE
 _ROBUSTNESS = (
     "shift_1b_rad_s", *names(LENGTHS), "largest_median_stress_pa", "largest_stress_pa", "largest_goodman_share"
 )  # fmt: skip
-_DRAWN = {
-    "blade": (*names(STRUCTURE), *_ROBUSTNESS),
-    "scene": (*_ROBUSTNESS, "exceedance_integral_rad_s", "largest_rms_m"),
-}
+_DRAWN = {"blade": (*names(STRUCTURE), *_ROBUSTNESS), "scene": (*_ROBUSTNESS, "exceedance_integral_rad_s", "largest_rms_m")}
 """Measures that a family of blades, or of scenes, is chosen by."""
 
 _LABEL_WIDTH = 22

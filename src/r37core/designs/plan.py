@@ -138,9 +138,6 @@ EXTENSION = Extension(
     ),
     closing="designs.table.closing",
     panel=Panel(
-        TABLE,
-        "designs.panel.contents",
-        "designs/panel.js",
-        shown=lambda sweep: bool(sweep.settings.made(Families).maps),
+        TABLE, "designs.panel.contents", "designs/panel.js", shown=lambda sweep: bool(sweep.settings.made(Families).maps)
     ),
 )

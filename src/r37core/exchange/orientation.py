@@ -103,7 +103,7 @@ class Orientation:
         if not low <= tip <= high:
             warn_of(
                 f"length_unit {self.length_unit} gives a tip radius of {tip:.3g} m; those of blades are {low:g} to {high:g} m: "
-                "check length_unit, rotor_axis and axis_point",
+                "check length_unit, rotor_axis and axis_point"
             )
 
     def points_to_blade(self, points: np.ndarray) -> np.ndarray:

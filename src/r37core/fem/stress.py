@@ -64,12 +64,7 @@ def recovered_stress(
 
 
 def second_order_stress(
-    blocks: Blocks,
-    points: np.ndarray,
-    first: np.ndarray,
-    second: np.ndarray,
-    material: Material,
-    integration_points: bool,
+    blocks: Blocks, points: np.ndarray, first: np.ndarray, second: np.ndarray, material: Material, integration_points: bool
 ) -> np.ndarray:
     """Stress by the strain of second order of two displacements, field by field, as recovered_stress has it: see strain.py."""
 

@@ -465,11 +465,7 @@ _OF_RUNS: _Numbers = {
     "used_lining": ("%", 100.0, _used_lining),
 }
 
-_OF_BLADE: _Numbers = {
-    "miner_sum": ("1", 1.0, _miner_sum),
-    "clearance": ("mm", 1e3, _clearance),
-    "mass": ("kg", 1.0, _mass),
-}
+_OF_BLADE: _Numbers = {"miner_sum": ("1", 1.0, _miner_sum), "clearance": ("mm", 1e3, _clearance), "mass": ("kg", 1.0, _mass)}
 
 
 def distance_from_operation(crossing: float, operating: OperatingRange) -> float:

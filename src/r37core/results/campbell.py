@@ -103,11 +103,7 @@ def name_modes(model: ReducedModel, shapes: np.ndarray, count: int) -> tuple[tup
 
 
 def dynamic_clearance(
-    model: ReducedModel,
-    shapes: np.ndarray,
-    tip_line: str,
-    tangential_displacement: np.ndarray,
-    cone_angle: float | None = None,
+    model: ReducedModel, shapes: np.ndarray, tip_line: str, tangential_displacement: np.ndarray, cone_angle: float | None = None
 ) -> np.ndarray:
     """Change of the leading-edge clearance (m), shape (modes, displacements), as the blade swings along free modes.
 

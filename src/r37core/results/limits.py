@@ -15,22 +15,13 @@ _LIMITS: dict[str, tuple[str | float, str]] = {
         + _PAGE
         + _FED,
     ),
-    "largest_normal_force": (
-        700.0,
-        "contact forces reach {:.3g} N a node; tested to {:g} N, there 9% off " + _PAGE,
-    ),
-    "energy_residual_share": (
-        0.02,
-        "up to {:.2g} of the energy is unaccounted for, above {:g}: take a smaller time step",
-    ),
+    "largest_normal_force": (700.0, "contact forces reach {:.3g} N a node; tested to {:g} N, there 9% off " + _PAGE),
+    "energy_residual_share": (0.02, "up to {:.2g} of the energy is unaccounted for, above {:g}: take a smaller time step"),
     "bounded_share_of_time": (
         0.0,
         "only the bound on the elastic energy ends the growth of the motion, in up to {:.2g} of the steps" + _FED,
     ),
-    "friction_power": (
-        "melting_power",
-        "friction takes up to {:.3g} W; from {:.3g} W on a tenth of it melts the tip in 1 s",
-    ),
+    "friction_power": ("melting_power", "friction takes up to {:.3g} W; from {:.3g} W on a tenth of it melts the tip in 1 s"),
 }
 """Variable of the runs -> its limit, with displacements of second order, or the variable that has it; the reason in words."""
 

@@ -15,11 +15,7 @@ from r37core.figures import style
 from .dataset import runs_of
 from .tables import CASE
 
-_QUANTITIES = {
-    **style.CURVES,
-    "max_von_mises": style.CURVES["max_von_mises_ever"],
-    "max_wear": ("largest wear (mm)", 1e3),
-}
+_QUANTITIES = {**style.CURVES, "max_von_mises": style.CURVES["max_von_mises_ever"], "max_wear": ("largest wear (mm)", 1e3)}
 _FEW_REVOLUTIONS, _FAINT = 60, 1e-5
 _DIRECTIONS: dict[str, Literal["-", "--"]] = {"up": "-", "down": "--"}
 _LININGS = {"new": "o", "worn": "x"}

@@ -34,8 +34,7 @@ class SweepChoice:
         int | None, Key("Revolutions at each speed; by default those of the runs from rest", ge=FEWEST_REVOLUTIONS, le=20000)
     ] = None
     worn: Annotated[
-        bool,
-        Key("Lining at each speed: new, or worn by the speeds before", name="lining", words={"new": False, "worn": True}),
+        bool, Key("Lining at each speed: new, or worn by the speeds before", name="lining", words={"new": False, "worn": True})
     ] = False
 
     @property

@@ -21,13 +21,7 @@ from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
 from r37core.exchange.refusal import ImportRefused, blamed, warn_of
 from r37core.fem.solver import Solve, factorise
 from r37core.rom.contact_weights import TipContact, contact_along, tip_lengths
-from r37core.rom.craig_bampton import (
-    StateAtSpeed,
-    combine_columns,
-    constraint_and_fixed_modes,
-    multi_speed_basis,
-    projected,
-)
+from r37core.rom.craig_bampton import StateAtSpeed, combine_columns, constraint_and_fixed_modes, multi_speed_basis, projected
 from r37core.rom.naming import NAMED_MODES
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.rom.reduced_model import ReducedModel

@@ -46,7 +46,7 @@ def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.
     if linear:
         warn_of(
             f"elements of first order ({', '.join(linear)}) are too stiff in bending: frequencies come out too high, often by "
-            "10% and more; write the mesh with second-order elements",
+            "10% and more; write the mesh with second-order elements"
         )
     return replace(mesh, blocks=blocks), np.concatenate(quality)
 
@@ -131,7 +131,7 @@ def _tell_holes(points: np.ndarray, faces: list[Faces]) -> None:
         holes = [cavities] * (pieces > 1) + [through] * (characteristic != 2 * pieces)
         warn_of(
             f"the mesh has holes ({'; '.join(holes)}): elements may be missing, and with them mass and stiffness; if the blade "
-            "is hollow, all is well",
+            "is hollow, all is well"
         )
 
 

@@ -232,6 +232,6 @@ def _edge_nodes(what: str, name: str, mesh: RawMesh) -> np.ndarray:
         return members
     warn_of(
         f"{what}: the set '{name}' has corners of elements alone ({members.sum()} nodes); the {between.sum()} mid-nodes "
-        "between them are taken too",
+        "between them are taken too"
     )
     return members | between

@@ -129,7 +129,7 @@ def _check_lead(ends: np.ndarray, sense: TipSense, fits: bool | None) -> None:
 def _warn_unproved(key: str, shown: str) -> None:
     warn_of(
         f"{key} is taken as given: {shown} does not prove it ({np.degrees(LEAST):g} degrees would). Make sure of it"
-        + (": with a wrong one a blade looks safe that is not" if key == "rotation" else ""),
+        + (": with a wrong one a blade looks safe that is not" if key == "rotation" else "")
     )
 
 
