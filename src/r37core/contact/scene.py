@@ -205,6 +205,12 @@ class Scene:
         rows = (row if ratio is None else replace(row, ratio=ratio) for row, ratio in bounds.items())
         return replace(self, damping_ratio=tuple(rows))
 
+    def scaled_friction(self, factor: float) -> Self | None:
+        """The scene with its coefficient of friction times a `factor`; None without friction."""
+        if self.friction is None:
+            return None
+        return replace(self, friction=replace(self.friction, coefficient=factor * self.friction.coefficient))
+
     @property
     def grown(self) -> Self:
         """The scene with lobes that are full-grown from the start, and the clearance of its end."""

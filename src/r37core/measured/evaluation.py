@@ -32,6 +32,9 @@ from .points import TIP_TIMING, Measurement
 
 Values = dict[str, list[float]]
 
+_FRICTION = (0.999, 1.0, 1.001)
+"""Factors of friction whose runs have their mean taken on a bare casing."""
+
 
 def observed_blade(
     files: Any, measurements: Mapping[str, Measurement], choice: IntegrationChoice, tip_line: str, folder: Path
@@ -78,8 +81,12 @@ class Evaluation:
                     sweep, attributes = blade_sweep(varied, blade, scene, kept=False), structure_attributes(settings, blade)
                     file = sweep.file("contact_model", structures, attributes)
                     observed, made_of = replace(observed, model=read_contact_model(file)), [content_digest(file), made_of]
-                runs = replace(observed, parts=Parts(self.folder / name / blade / scene, made_of)).simulated(other)
-                simulated |= {measured: np.nan_to_num(numbers, nan=inf).tolist() for measured, numbers, _ in runs}
+                runs = replace(observed, parts=Parts(self.folder / name / blade / scene, made_of))
+                # on a bare casing a single run is a matter of chance
+                scenes = [other.scaled_friction(factor) or other for factor in ((1.0,) if other.lined else _FRICTION)]
+                several = [dict(part[:2] for part in runs.simulated(each)) for each in scenes]
+                means = {measured: np.mean([each[measured] for each in several], axis=0) for measured in several[0]}
+                simulated |= {measured: np.nan_to_num(values, nan=inf).tolist() for measured, values in means.items()}
         except (ConfigError, ImpossibleValueError, BucklingError, NoEquilibriumError, NoRoomError) as error:
             return str(error)
         return simulated

@@ -3,7 +3,6 @@
 import hashlib
 import json
 import math
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -40,8 +39,7 @@ def observe(input: Any, output: Any, params: Any) -> None:
     measurements = from_plain(dict[str, Measurement], params.measurements)
     scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
     blade = observed_blade(input, measurements, choice, params.tip_line, Path(output.observed).parent / "observed")
-    slightly = scene.friction and replace(scene.friction, coefficient=_SLIGHTLY_MORE * scene.friction.coefficient)
-    others = blade.simulated(replace(scene, friction=slightly))
+    others = blade.simulated(scene.scaled_friction(_SLIGHTLY_MORE) or scene)
     numbers = {}
     for (name, values, remark), (_, other, _) in zip(blade.simulated(scene), others, strict=True):
         with np.errstate(invalid="ignore"):

@@ -72,13 +72,6 @@ class JudgedBlade:
         kept = longest if self.choice.snapshots_per_revolution else 0
         return replace(self.choice, revolutions=longest, snapshot_revolutions=kept, until_settled=True)
 
-    def scaled_friction(self, factor: float) -> Scene | None:
-        """The rising scene with its coefficient of friction times a `factor`; None without friction."""
-        scene = self.rising_scene
-        if scene.friction is None:
-            return None
-        return replace(scene, friction=replace(scene.friction, coefficient=factor * scene.friction.coefficient))
-
     @cached_property
     def rising_scene(self) -> Scene:
         """The scene with lobes that grow as in the sweep's runs, however long a run is."""
@@ -165,7 +158,7 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     close = judging.closeness(requirements, rest)
     near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[: _speeds_near(close)]]).tolist()
     for look, factor in _FRICTION.items():
-        if scene := blade.scaled_friction(factor):
+        if scene := blade.rising_scene.scaled_friction(factor):
             yield look, blade.runs_from_rest(near, scene)
     yield judging.HALF_STEP, blade.runs_from_rest(near, time_step=0.5 * blade.long_choice.time_step)
     if blade.coarser:
@@ -179,7 +172,7 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
     diverged.
     """
     soonest = soonest_divergence(runs)["speed"].values.tolist()
-    if soonest and (less := blade.scaled_friction(0.5)):
+    if soonest and (less := blade.rising_scene.scaled_friction(0.5)):
         yield HALF_FRICTION, blade.runs_from_rest(soonest, less)
     near, scene = judging.nearness(requirements, runs)[runs.operates], blade.rising_scene
     count = max(_speeds_near(near), int(np.count_nonzero(near >= 1.0)))
