@@ -17,6 +17,7 @@ from r37core.measured.observed import statistic
 from r37core.measured.points import Measurement, Points, feature_speed, turned_profile
 from r37core.measured.section import MeasurementError, MeasurementSection
 from r37core.product.extensions import load_settings
+from r37core.product.leftovers import leftovers
 from r37core.results.agreement import agreeing, disagreements, disagrees, groups, words
 from r37core.stress.gauge import Gauge
 
@@ -279,3 +280,11 @@ def test_the_contact_length_of_a_rub_test_is_what_is_known_before(tmp_path):
     low, high = spread.log_between
     fit = r37.lining_from_rub_test(tmp_path / "rig.csv").contact_length
     assert number.name == "scene.lining.contact_length_m" and (low, high) == pytest.approx(fit.range_95)
+
+
+def test_designs_of_a_calibration_are_left_over_when_it_is_no_longer_asked_for(tmp_path):
+    results = tmp_path / "results"
+    (results / "calibrate/c0001").mkdir(parents=True)
+    (results / "calibration.csv").write_text("number\n")
+    assert leftovers(results, configured(tmp_path, [{}], calibrate=FRICTION)) == []
+    assert leftovers(results, configured(tmp_path, [{}])) == [results / "calibrate", results / "calibration.csv"]

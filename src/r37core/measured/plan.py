@@ -17,7 +17,7 @@ from .section import CALIBRATE, MEASURED
 OBSERVED = "<results>/{blade}/{scene}/observed.json"
 TABLE = "<results>/measured.csv"
 DATASET, NUMBERS = "<results>/calibration.nc", "<results>/calibration.csv"
-FOLDER = "<results>/calibration"
+FOLDER = "<results>/calibrate/fitted"
 """Folder of the draws, and of scenes with the best values."""
 
 

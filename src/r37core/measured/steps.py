@@ -64,7 +64,7 @@ def calibrate(input: Any, output: Any, params: Any) -> None:
 
     Inputs: lists of files, of each blade and scene. Params: carried (the settings), cores.
     """
-    settings, folder = params.carried.settings, Path(output.folder).parent / ".calibration"
+    settings, folder = params.carried.settings, Path(output.folder).parent
     calibrated, measured = settings.made(Calibrated), settings.made(Measured)
     run_all = partial(forked_results, params.cores)
     # inputs are lists of files, of each blade and scene
