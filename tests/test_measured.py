@@ -282,9 +282,11 @@ def test_the_contact_length_of_a_rub_test_is_what_is_known_before(tmp_path):
     assert number.name == "scene.lining.contact_length_m" and (low, high) == pytest.approx(fit.range_95)
 
 
-def test_designs_of_a_calibration_are_left_over_when_it_is_no_longer_asked_for(tmp_path):
+def test_what_a_calibration_made_is_left_over_when_it_is_no_longer_asked_for(tmp_path):
     results = tmp_path / "results"
-    (results / "calibrate/c0001").mkdir(parents=True)
+    for folder in ("c0001", "fitted"):
+        (results / "calibrate" / folder).mkdir(parents=True)
     (results / "calibration.csv").write_text("number\n")
     assert leftovers(results, configured(tmp_path, [{}], calibrate=FRICTION)) == []
-    assert leftovers(results, configured(tmp_path, [{}])) == [results / "calibrate", results / "calibration.csv"]
+    dropped = leftovers(results, configured(tmp_path, [{}]))
+    assert dropped == [results / "calibrate/fitted", results / "calibration.csv"]
