@@ -148,6 +148,7 @@ def compare_measured(
         ConfigError: For bad input, and a file that fits no quantity.
 
     Examples:
+        >>> import pandas as pd
         >>> table = pd.DataFrame({"speed_rad_s": [1150.0], "amplitude (mm)": [1.0]})
         >>> rubbed = {"file": table, "quantity": "displacement_tangential", "uncertainty_percent": 10}
         >>> r37.compare_measured("Ref", "abradable", rubbed, fidelity="draft")["unit"].tolist()

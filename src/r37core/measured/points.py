@@ -11,6 +11,7 @@ from r37core.stress.gauge import Gauge
 RMS, HALF_PEAK_TO_PEAK, ORDER = "rms", "half_peak_to_peak", "order"
 VALUES, PEAK, FIRST_ABOVE = "values", "peak", "first_above"
 WORN_DEPTH, STRAIN, TIP_TIMING = "worn_depth", "strain", "tip_timing"
+LEADING_EDGE, TRAILING_EDGE = "leading_edge", "trailing_edge"
 NORMAL, TANGENTIAL, RADIAL = (f"displacement_{direction}" for direction in ("normal", "tangential", "radial"))
 
 
@@ -51,7 +52,7 @@ class Measurement:
     quantity: str
     points: Points
     statistic: str = RMS
-    tip_point: str = "leading_edge"
+    tip_point: str = LEADING_EDGE
     probe: float = 0.0
     gauge: Gauge | None = None
     speed_of: str = VALUES

@@ -4,11 +4,24 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from r37core.base.io import CarriedError
 from r37core.config.blade_sections import Degrees, GaugeEntry
 from r37core.config.section import ExtensionSection, FileName, LeftOut, Name, Rpm, Section, Speed, left_out, or_section, refused
-from r37core.config.spread import Spreads, Width
+from r37core.config.spread import Percent, Spreads, Width
 
-from .points import HALF_PEAK_TO_PEAK, NORMAL, ORDER, RADIAL, RMS, STRAIN, TANGENTIAL, TIP_TIMING, WORN_DEPTH
+from .points import (
+    HALF_PEAK_TO_PEAK,
+    LEADING_EDGE,
+    NORMAL,
+    ORDER,
+    RADIAL,
+    RMS,
+    STRAIN,
+    TANGENTIAL,
+    TIP_TIMING,
+    TRAILING_EDGE,
+    WORN_DEPTH,
+)
 
 ASKED = "?"
 """Column that is answered with what the header has."""
@@ -27,14 +40,16 @@ class MeasurementSection(Section):
         default=RMS, description="Statistic of the values; of a time signal amplitudes of its engine orders"
     )
     engine_order: Annotated[int, Field(ge=1, le=1000)] | LeftOut = left_out("Engine order, with statistic: order")
-    tip_point: Literal["leading_edge", "trailing_edge"] = Field(default="leading_edge", description="End of the tip")
+    tip_point: Literal[(LEADING_EDGE, TRAILING_EDGE)] = Field(  # type: ignore[valid-type]
+        default=LEADING_EDGE, description="End of the tip"
+    )
     gauge: or_section(Name, GaugeEntry) | LeftOut = left_out(  # type: ignore[valid-type]
         "Gauge of a strain: its place, or its name under signals.gauges"
     )
     probe_deg: Degrees | LeftOut = left_out("Casing angle of the tip-timing probe, towards growing theta")
     value: str | LeftOut = left_out("Column with the values, where several may be; ? lists the columns")
     uncertainty: str | LeftOut = left_out("Column with standard deviations, where several may be")
-    uncertainty_percent: Annotated[float, Field(gt=0, le=1000)] | LeftOut = left_out("Standard deviation of each value")
+    uncertainty_percent: Percent | LeftOut = left_out("Standard deviation of each value")
     speed_rad_s: Speed | LeftOut = left_out("Speed, where the file has none")
     speed_rpm: Rpm | LeftOut = left_out("The same speed in revolutions per minute")
     rows: dict[str, str] = Field(default={}, description="Rows of a long file that count: text by column")
@@ -59,7 +74,7 @@ class MeasurementSection(Section):
             raise refused(("speed_rpm",), "speed_rad_s and speed_rpm", "one of them")
 
 
-class MeasurementError(ValueError):
+class MeasurementError(CarriedError):
     """A file of a measurement that cannot be used, for a reason that `key` of its entry is to blame for."""
 
     def __init__(self, key: str, text: str):
