@@ -74,6 +74,12 @@ def test_a_long_file_has_rows_that_are_chosen_and_a_wide_one_columns(read):
         read(wide, reading(value="?"))
 
 
+@pytest.mark.parametrize("title, named", [("sd (um)", None), ("spread_um", "spread_um")])
+def test_an_uncertainty_is_known_by_its_name_or_named(read, title, named):
+    points = read(f"speed_rpm,amplitude (um),{title}\n1000,5,2\n", READING.model_copy(update={"uncertainty": named}))
+    assert points.values == pytest.approx((5e-6,)) and points.deviations == pytest.approx((2e-6,))
+
+
 def test_a_speed_that_was_measured_twice_has_the_mean(read):
     points = read("speed_rad_s,a_m\n1,1\n1,3\n2,5\n")
     assert points.values == (2.0, 5.0)
@@ -175,6 +181,20 @@ def test_a_difference_is_in_units_of_both_uncertainties():
     assert agreeing(table).tolist() == [True, True, True]
     by_chance = comparison([1.3, 2.0, 4.0], scatter=[0.2, 0.0, 0.0])
     assert by_chance["difference_over_uncertainty"][0] == pytest.approx(0.3 / np.hypot(0.1, 0.2))
+
+
+def test_the_error_of_the_level_is_one_of_amplitudes():
+    points = Points((1000.0,), (1000.0,), (2.0,), (0,))
+    peak = Measurement(
+        "tip.csv", "A", "s", "displacement_normal", points, speed_of="peak", curve_speeds=(990.0, 1000.0, 1010.0)
+    )
+    table = compared({"m0": peak}, {"m0": {"values": [1010.0], "scatter": [0.0], "remark": ""}}, {("A", "s"): 0.1})
+    assert table["difference_over_uncertainty"].tolist() == [5.0]
+
+
+def test_points_that_agree_by_scatter_alone_are_counted():
+    table = comparison([5.0, 2.0, 4.0], scatter=[3.0, 0.0, 0.0])
+    assert words(table) == "3 of 3 points within 2 sigma, at 1 of them as the simulation scatters by chance"
 
 
 def test_words_say_how_many_points_agree_and_where_others_lie():

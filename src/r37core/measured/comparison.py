@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from .points import Measurement
+from .points import VALUES, Measurement
 
 
 def compared(
@@ -25,7 +25,9 @@ def compared(
 def _rows(measurement: Measurement, simulated: Mapping[str, Any], error: float) -> pd.DataFrame:
     points, known = measurement.points, np.array([value is not None for value in simulated["values"]])
     values, scatter = (np.nan_to_num(np.array(simulated[name], float)) for name in ("values", "scatter"))
-    uncertainty = np.where(known, np.hypot(np.nan_to_num(error) * values, scatter), 0.0)
+    # the level's error is one of amplitudes, not of speeds
+    share = np.nan_to_num(error) if measurement.speed_of == VALUES else 0.0
+    uncertainty = np.where(known, np.hypot(share * values, scatter), 0.0)
     values = np.where(known, values, inf)
     both = np.hypot(points.deviations, uncertainty)
     return pd.DataFrame(

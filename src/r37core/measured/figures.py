@@ -1,6 +1,7 @@
 """Figures of measurements beside the simulation, and of a calibration."""
 
 from pathlib import Path
+from textwrap import fill
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,6 +15,7 @@ from r37core.figures import style
 from r37core.results.agreement import groups, words
 
 NO_MEMBERS = Path("none")
+_ORDERS = "engine order"
 
 _CURVES = {"displacement_normal, rms": "rms_normal", "displacement_tangential, rms": "rms_tangential"}
 """Quantity that members under tolerances have, too, at the leading edge."""
@@ -48,7 +50,7 @@ def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: Path = N
         axes.errorbar(
             ordered[column], factor * ordered["measured"], bars, fmt="s", markersize=3, linewidth=0.8, label="measured"
         )
-        axes.set(xlabel=label, ylabel=f"{quantity}\n({unit or '1'})", title=words(rows).split("; ")[0])
+        axes.set(xlabel=label, ylabel=f"{fill(quantity, 24)}\n({unit or '1'})", title=words(rows).split("; ")[0])
     grid.flat[0].legend()
     return figure
 

@@ -31,7 +31,7 @@ _UNITS = {
     _LENGTH: LENGTH_UNITS | {"mil": 2.54e-5},
     _STRAIN: {"strain": 1.0, "m/m": 1.0, "um/m": 1e-6, "microstrain": 1e-6, "ue": 1e-6},
 }
-_UNCERTAINTY = re.compile(r"uncertainty|sigma|std|deviation|error", re.IGNORECASE)
+_UNCERTAINTY = re.compile(r"uncertainty|sigma|std|deviation|error|(?<![a-z])sd(?![a-z])", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,8 @@ class _Table:
 
     def column(self, key: str, kind: str, title: str | None = None, *, uncertain: bool = False) -> _Column | None:
         """The column of this `title`, or the one that fits. Raises MeasurementError for none of the title, and for several."""
-        fitting = [each for each in self.columns if (each.kind, each.is_uncertainty) == (kind, uncertain)]
-        fitting = [each for each in fitting if title in (None, each.title)]
+        columns = [each for each in self.columns if each.kind == kind]
+        fitting = [each for each in columns if (each.title == title if title else each.is_uncertainty == uncertain)]
         if len(fitting) > 1 or (title and not fitting):
             problem = f"'{title}'" if title else f"{len(fitting)} columns with a {kind}"
             raise MeasurementError(key, f"found {problem}; allowed: one column with a {kind} of the header: {self.header}")
@@ -87,7 +87,12 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     table = _counting_rows(file, entry)
     kind = _STRAIN if entry.quantity == STRAIN else _LENGTH
     axes = {kind: table.column("rows", kind) for kind in (_SPEED, _ANGLE, _TIME)}
-    value = table.column("value", kind, entry.value) or (axes[_SPEED] if entry.speed_of != VALUES else None)
+    title = entry.value
+    if title is None and entry.uncertainty in table.cells:
+        # the other one, where a column is named that does not look like an uncertainty
+        others = [each.title for each in table.columns if each.kind == kind and each.title != entry.uncertainty]
+        title = others[0] if len(others) == 1 else None
+    value = table.column("value", kind, title) or (axes[_SPEED] if entry.speed_of != VALUES else None)
     if value is None:
         wanted = f"no column of {entry.quantity}, with a {kind} in {', '.join(_UNITS[kind])}"
         raise MeasurementError("value", f"{wanted}; the header is: {table.header}")

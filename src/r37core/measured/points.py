@@ -69,7 +69,8 @@ class Measurement:
         """Quantity and statistic, for tables, figures and messages."""
         if self.speed_of != VALUES:
             return f"speed of the {'peak' if self.limit is None else f'first above {self.limit:g}'} of {self.quantity}"
-        return self.quantity if self.quantity == WORN_DEPTH else f"{self.quantity}, {self.statistic}"
+        statistic = "engine orders" if any(self.points.orders) else self.statistic
+        return self.quantity if self.quantity == WORN_DEPTH else f"{self.quantity}, {statistic}"
 
     @property
     def run_speeds(self) -> tuple[float, ...]:

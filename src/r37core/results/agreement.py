@@ -14,6 +14,9 @@ WITHIN = 2.0
 LEAST_AGREEING = 0.75
 """Share of the points within WITHIN below which simulation and measurement disagree; 0.95 of them are by chance."""
 
+SCATTERED = 0.3
+"""Uncertainty over the value from which on a simulated point agrees with nearly anything."""
+
 _MOST_NAMED = 3
 
 
@@ -36,6 +39,8 @@ def words(rows: pd.DataFrame) -> str:
     """How many points of a measurement agree, and where the others lie."""
     inside = agreeing(rows)
     text = f"{inside.sum()} of {counted(len(rows), 'point')} within {WITHIN:g} sigma"
+    scattered = int((inside & (rows["simulated_uncertainty"] > SCATTERED * rows["simulated"])).sum())
+    text += f", at {scattered} of them as the simulation scatters by chance" if scattered else ""
     far = rows[~inside]
     farthest = far.loc[far["difference_over_uncertainty"].abs().sort_values(ascending=False).index[:_MOST_NAMED]]
     ratios = [_ratio(row) for _, row in farthest.sort_values("speed_rad_s").iterrows()]
