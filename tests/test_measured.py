@@ -110,6 +110,7 @@ def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
         ("speed_rad_s,a_m,speed_error_rad_s\n1,1,2\n", reading(uncertainty_percent=None), "neither it nor a column"),
         ("speed_rad_s,a_m\n1,2,3\n", READING, "more cells than the header"),
         ("", READING, "allowed: a CSV with a header"),
+        ("blade,speed_rad_s,a_m\nFan,1,1\n", READING, "found rows of the blade 'Fan'; allowed: those of "),
         ("speed_rad_s,angle_deg,d_m\n1,0,1\n2,0,1\n", WORN, "over angles at 2 speeds"),
         (
             "speed_rad_s,a_m\n1,1\n2,2\n",

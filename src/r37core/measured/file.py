@@ -132,6 +132,10 @@ def _counting_rows(file: Path, entry: MeasurementSection) -> _Table:
         raise MeasurementError("file", str(error)) from None
     if entry.value == ASKED:
         raise MeasurementError("value", f"the columns are: {table.header}; name one, or leave the key out where one fits")
+    for key in {"blade", "scene"} & {*table.cells} - {*entry.rows}:
+        if others := {*table.cells[key].str.strip().dropna()} - {getattr(entry, key)}:
+            problem = f"found rows of the {key} '{min(others)}'"
+            raise MeasurementError("rows", f"{problem}; allowed: those of {getattr(entry, key)}, or rows: {{ {key}: name }}")
     for title, text in entry.rows.items():
         if title not in table.cells:
             raise MeasurementError("rows", f"found no column '{title}'; the header is: {table.header}")
