@@ -271,3 +271,31 @@ def test_all_that_a_run_has_is_reached(finished, tmp_path):
     assert tree["Ref/abradable/signals"]["x"] == 2.0
     for blade in ("Ref", "CS100"):
         xr.testing.assert_identical(tree[f"{blade}/direct/response"].to_dataset().load(), results.response(blade, "direct"))
+
+
+@pytest.mark.slow
+def test_what_an_instrument_sees_is_what_signals_spectrum_and_wear_have(finished, tmp_path):
+    """Strain, tip timing, trailing edge, an engine order and the worn depth, each by the other way to the same number."""
+    tables = {"strain.csv": "a_microstrain", "length.csv": "a_mm"}
+    for name, column in tables.items():
+        (tmp_path / name).write_text(f"speed_rad_s,{column}\n{SPEEDS[0]},1\n")
+    shared = {"blade": "Ref", "scene": "abradable", "uncertainty_percent": 10, "statistic": "half_peak_to_peak"}
+    strain, length = ({**shared, "file": str(tmp_path / name)} for name in tables)
+    gauge = {"chord": 0.5, "span": 0.3, "side": "pressure", "angle_deg": 0.0}
+    measured = [
+        {**strain, "quantity": "strain", "gauge": "G1"},
+        {**length, "quantity": "tip_timing", "probe_deg": 30.0},
+        {**length, "quantity": "displacement_normal", "tip_point": "trailing_edge"},
+        {**length, "quantity": "displacement_normal", "statistic": "order", "engine_order": 4},
+        {**length, "quantity": "worn_depth"},
+    ]
+    signals = {"speeds_rad_s": SPEEDS[:1], "gauges": {"G1": gauge}, "probes_deg": [30.0]}
+    results = r37.run("Ref", "abradable", SPEEDS[:1], measured=measured, signals=signals)
+    run = results["signals"].isel(run=0)
+    later = run.sel(turn=run.turn > 0.5 * run.turn.max())
+    arrivals = run.arrival_displacement.isel(tip_point=0, probe=0)
+    arrivals = arrivals[arrivals.sizes["revolution"] // 2 :]
+    of_runs = results["spectrum"].amplitude.sel(blade="Ref", scene="abradable", engine_order=4), results["wear"].max_wear
+    expected = [0.5 * float(each.max() - each.min()) for each in (later.strain[0], arrivals, later.normal[1])]
+    expected += [float(each.squeeze()) for each in of_runs]
+    np.testing.assert_allclose(results.tables["measured"]["simulated"], expected, rtol=1e-5)

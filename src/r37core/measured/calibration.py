@@ -9,7 +9,8 @@ import numpy as np
 
 from r37core.base.varied_number import VariedNumber
 from r37core.config.spread import SpreadEntry
-from r37core.plans.member_values import sobol_points
+from r37core.plans.member_values import drawn, sobol_points
+from r37core.results.agreement import WITHIN
 from r37core.surrogate.designs import Design, SearchVariable
 from r37core.surrogate.gaussian_processes import fit, fit_chance
 from r37core.surrogate.proposal import propose
@@ -42,8 +43,7 @@ class Numbers:
 
     def values(self, share: Sequence[float]) -> dict[VariedNumber, float]:
         """Values at a point of the unit cube."""
-        numbers = zip(self.spreads.items(), self.nominal, share, strict=True)
-        return {number: spread.value(value, part) for (number, spread), value, part in numbers}
+        return drawn(self.spreads, self.nominal, share)
 
 
 @dataclass
@@ -69,10 +69,11 @@ class Calibration:
             named = {f"c{len(self.cube) + place:04d}": self.numbers.values(point) for place, point in enumerate(new)}
             for point, gave in zip(new, simulate(named), strict=True):
                 self.cube.append(point)
-                each = (
-                    self.floors + inf if isinstance(gave, str) else np.concatenate([gave[name] for name in self.measurements])
-                )
-                self.simulated.append(self.scaled(each))
+                # what cannot be run has no finite value
+                values = self.floors + inf
+                if not isinstance(gave, str):
+                    values = np.concatenate([gave[name] for name in self.measurements])
+                self.simulated.append(self.scaled(values))
 
     @cached_property
     def floors(self) -> np.ndarray:
@@ -107,8 +108,8 @@ class Calibration:
         if not np.isfinite(self.misfits).any():
             return "no design could be run to its end"
         values, deviations = self.measured
-        near = np.abs((self.simulated[int(np.nanargmin(self.misfits))] - values) / deviations) <= 2.0
-        return f"best design: {near.sum()} of {len(near)} points within 2 sigma"
+        near = np.abs((self.simulated[int(np.nanargmin(self.misfits))] - values) / deviations) <= WITHIN
+        return f"best design: {near.sum()} of {len(near)} points within {WITHIN:g} sigma"
 
     def likelihood(self) -> Likelihood:
         """Likelihood of the measured points under the surrogates. Raises ValueError where too few runs end."""
