@@ -53,7 +53,7 @@ def frequencies(input: Any, output: Any, params: Any) -> None:
     """Table of the shift of ten frequencies at the highest speed, and of what uncoupled modes leave out of it."""
     settings = settings_of(Path.cwd())
     rows, speed = [], settings.structure.maximum_speed_rad_s
-    for blade, ((without, _), (model, contact)) in models(input.files, settings.structure.boundary.tip_line).items():
+    for blade, ((without, _), (model, contact)) in models(input.models, settings.structure.boundary.tip_line).items():
         exact = model.modes(speed, FREQUENCIES)[0]
         shift = exact / without.modes(speed, FREQUENCIES)[0] - 1.0
         cells = [blade, f"{100.0 * shift[0]:+.3f}%", f"{100.0 * shift[np.abs(shift).argmax()]:+.3f}%"]
@@ -71,7 +71,7 @@ def frequencies(input: Any, output: Any, params: Any) -> None:
 def peaks(input: Any, output: Any, params: Any) -> None:
     """Table of the peaks of the ten published interactions, every 1 rad/s."""
     settings, rows = settings_of(Path.cwd()), []
-    pairs = models(input.files, settings.structure.boundary.tip_line)
+    pairs = models(input.models, settings.structure.boundary.tip_line)
     for row in INTERACTIONS:
         speeds, pair = np.arange(round(row.peak) - BEFORE, round(row.peak) + AFTER + 1.0), pairs[row.blade]
         crossings = [_crossing(model, row.engine_order) for model, _ in pair]
@@ -96,7 +96,7 @@ def peaks(input: Any, output: Any, params: Any) -> None:
 def bare_casing(input: Any, output: Any, params: Any) -> None:
     """Table of the bare casing about the crossing of 1B with engine order 4, as means over speeds."""
     settings, rows = settings_of(Path.cwd()), []
-    for blade, pair in models(input.files, settings.structure.boundary.tip_line).items():
+    for blade, pair in models(input.models, settings.structure.boundary.tip_line).items():
         speeds = SHARES * _crossing(pair[0][0], 4)
         runs = [[_run(settings, blade, contact, "direct", speed) for speed in speeds] for _, contact in pair]
         rms = np.array([[1e3 * each["rms"][0, [0, 2]] for each in some] for some in runs])
@@ -112,7 +112,7 @@ def bare_casing(input: Any, output: Any, params: Any) -> None:
 def cost(input: Any, output: Any, params: Any) -> None:
     """Table of the CPU time with the force as a multiple of that without, of whole runs and of their steps, in turns."""
     settings, rows = settings_of(Path.cwd()), []
-    pair = models(input.files, settings.structure.boundary.tip_line)["Ref"]
+    pair = models(input.models, settings.structure.boundary.tip_line)["Ref"]
     for shown, scene in SCENES.items():
         ratios = np.array([_ratios(settings, pair, scene, speed) for speed in TIMED for _ in range(ROUNDS)])
         for what, column in (("whole run", 0), ("time integration", 1)):

@@ -112,7 +112,11 @@ def _word(cell: str) -> str:
     return re.sub(r"[^\w.-]+", "_", cell).strip("_")
 
 
-def renew(input: Any, output: Any, params: Any) -> None:
-    """Put the tables into a page. Input: their files. Output: the page, which is there."""
-    page = Path(output[0])
-    write_text(renewed(page.read_text(encoding="utf-8"), as_list(input)), page)
+def renew_all(root: Path) -> None:
+    """Put the tables and numbers into all pages of a project; a page whose tables are not there stays as it is."""
+    pages = Pages(root)
+    for name in pages.files:
+        page, tables = root / name, [root / table for table in pages.tables(name)]
+        text = page.read_text(encoding="utf-8")
+        if all(table.exists() for table in tables) and renewed(text, tables) != text:
+            write_text(renewed(text, tables), page)
