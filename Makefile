@@ -11,7 +11,7 @@ LOCK := envs/lock.txt
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint $(LOCK)
 
 .DEFAULT_GOAL := help
-.PHONY: help all_blades campbell report test test-fast mutants lint validation test-validation site tutorial setup lock clean clean-results
+.PHONY: help all_blades campbell report test test-fast mutants lint validation test-validation site setup lock clean clean-results
 
 help: ## this list
 	@awk -F ': .*## ' '/^[a-z][a-z_-]*:.*## / {printf "make %-14s %s\n", $$1, $$2}' Makefile
@@ -45,8 +45,10 @@ lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 	$(BIN)/python -m mypy
 	$(BIN)/python -m snakemake --lint
 
-validation: $(VENV)/.ready ## regenerate outdated tables and pictures of the pages, which takes up to hours (validation/README.md)
-	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES)
+# the numbers of the engine first: what is behind them is out of date only if one of them moves
+validation: $(VENV)/.docs ## tables and pictures of the pages that are out of date; EVERY=true makes all from nothing, in two hours
+	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) engine
+	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) $(if $(EVERY),--config every=$(EVERY))
 
 test-validation: $(VENV)/.ready ## the tests of what makes the tables and pictures of the pages
 	$(BIN)/python -m pytest validation/tests $(SPREAD)
@@ -54,9 +56,6 @@ test-validation: $(VENV)/.ready ## the tests of what makes the tables and pictur
 # a warning is an error
 site: $(VENV)/.docs ## the documentation as a site that opens from the disk: site/index.html
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --conf-dir docs/site docs site
-
-tutorial: $(VENV)/.docs ## docs/tutorial.ipynb of docs/tutorial.py, run; about a minute
-	$(BIN)/python validation/tutorial.py
 
 $(VENV)/.docs: $(VENV)/.ready
 	$(PIP_INSTALL) --editable '.[docs]'

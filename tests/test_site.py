@@ -21,7 +21,7 @@ def need(*packages):
 
 
 def test_the_notebook_is_that_of_the_script(root):
-    """`make tutorial` renews it."""
+    """`make validation` renews it."""
     need("nbformat", "jupytext")
     import jupytext
     import nbformat

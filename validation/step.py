@@ -1,8 +1,13 @@
 """Run an item of the evidence, or a run of the product behind it, whose name is a wildcard. Its log has what it prints."""
 
-from evidence.plan import Plan, make
+from evidence.made_from import note
+from evidence.plan import Item, Plan, make
 
 from r37core.console.failures import reported
 
-with reported(snakemake.wildcards.name, snakemake.log[0]):
-    make(Plan(), snakemake.wildcards.name, snakemake.threads)
+plan, name = Plan(), snakemake.wildcards.name
+with reported(name, snakemake.log[0]):
+    make(plan, name, snakemake.threads)
+    part = plan.part(name)
+    if isinstance(part, Item):
+        note(plan, part.files)

@@ -23,7 +23,7 @@ exclude_patterns = ["site/*", "tutorial.py"]
 myst_enable_extensions = ["dollarmath"]
 # links to headings, as far down as pages have any
 myst_heading_anchors = 4
-# make tutorial runs the notebook; the site shows what it has
+# make validation runs the notebook; the site shows what it has
 nb_execution_mode = "off"
 
 autodoc_member_order = "bysource"

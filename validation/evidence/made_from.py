@@ -5,14 +5,17 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
+import json
 import sys
 from collections.abc import Iterable
 from pathlib import Path
 
+from evidence.key_tables import COLUMNS
 from evidence.pages import Pages, renewed
 from evidence.plan import TABLES, Plan
-from r37core.base.io import read_json, write_json
+from r37core.base.io import read_json
 
 RECORD = f"{TABLES}/made_from.json"
 
@@ -21,14 +24,16 @@ def out_of_date(plan: Plan) -> dict[str, str]:
     """Files that are not those which their items would make now, or that nothing makes, and why."""
     root, stale, known = plan.root, {}, read_json(plan.root / RECORD)
     for file, item in plan.committed.items():
-        if file not in known or not (root / file).exists():
+        if file not in known:
             stale[file] = "was never made"
         elif known[file]["made_from"] != plan.hash_of(item.name):
             stale[file] = "what it is made from has changed"
-        elif known[file]["content"] != content_hash(root / file):
-            stale[file] = "was edited"
+        elif is_other(plan, file):
+            stale[file] = "is not what was made"
     pages = Pages(root)
-    stale |= dict.fromkeys({*pages.all_tables, *pages.pictures} - plan.committed.keys(), "no item makes it")
+    # what follows from the code alone has a test of its own
+    shown = {*pages.all_tables, *pages.pictures} - {str(COLUMNS)}
+    stale |= dict.fromkeys(sorted(shown - plan.committed.keys()), "no item makes it")
     for page in pages.files:
         text, tables = (root / page).read_text(encoding="utf-8"), [root / name for name in pages.tables(page)]
         if all(table.exists() for table in tables) and renewed(text, tables) != text:
@@ -36,11 +41,21 @@ def out_of_date(plan: Plan) -> dict[str, str]:
     return stale
 
 
+def is_other(plan: Plan, file: str) -> bool:
+    """Whether a committed file was edited, or is gone, since it was made."""
+    known = read_json(plan.root / RECORD).get(file)
+    return known is not None and not ((plan.root / file).exists() and content_hash(plan.root / file) == known["content"])
+
+
 def note(plan: Plan, files: Iterable[str]) -> None:
-    """Note what committed files were made from: their items as they are now."""
-    new = {file: {"made_from": plan.hash_of(plan.committed[file].name), "content": content_hash(plan.root / file)} for file in files}
-    kept = {file: entry for file, entry in read_json(plan.root / RECORD).items() if file in plan.committed}
-    write_json(dict(sorted((kept | new).items())), plan.root / RECORD)
+    """Note what committed files have just been made from; several processes may do so at a time."""
+    made = {file: plan.committed[file].name for file in files if file in plan.committed}
+    new = {file: {"made_from": plan.hash_of(name), "content": content_hash(plan.root / file)} for file, name in made.items()}
+    with open(plan.root / RECORD) as stream:
+        fcntl.flock(stream, fcntl.LOCK_EX)
+        known = {file: entry for file, entry in read_json(plan.root / RECORD).items() if file in plan.committed}
+        # in place, as others wait for this very file
+        (plan.root / RECORD).write_text(json.dumps(dict(sorted((known | new).items())), indent=1) + "\n", encoding="utf-8")
 
 
 def content_hash(file: Path) -> str:

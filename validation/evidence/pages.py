@@ -10,9 +10,8 @@ import csv
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
 
-from r37core.base.io import as_list, atomic_write, write_text
+from r37core.base.io import atomic_write, write_text
 
 _MARKER = re.compile(r"^<!-- (?:table|lines) (\w+)(?:: [^\n]*)? -->$", re.MULTILINE)
 _NUMBER = re.compile(

@@ -1,6 +1,7 @@
 """What the Coriolis force changes (docs/coriolis.md)."""
 
 from evidence.plan import Item, Run, table
+
 from plan.runs import BLADES
 
 CORIOLIS = Run("coriolis", keys={"structure": {"coriolis": True}})

@@ -1,79 +1,91 @@
-"""What a committed file was made from: content decides whether it is out of date, layout and file times do not."""
+"""Whether a committed file is out of date: its content and what it is made from decide, layout and file times do not."""
 
 import os
+import sys
 
 import pytest
-from evidence.made_from import RECORD, MadeFrom
-from evidence.pages import Pages, renewed
+from evidence import plan as plans
+from evidence.made_from import RECORD, note, out_of_date
+from evidence.pages import renewed
+from evidence.plan import ENGINE, Item, Plan, Run
 
 from r37core.base.io import read_json
 
-TABLE, PAGE, ENGINE = "validation/tables/a.csv", "docs/a.md", "validation/engine_numbers.json"
+TABLE, PAGE = "validation/tables/a.csv", "docs/a.md"
 FILES = {
     TABLE: "x\n1\n",
     PAGE: "<!-- table a -->\n<!-- end -->\n",
     "README.md": "",
     ENGINE: "{}",
     RECORD: "{}",
-    "config/config.yaml": "scenes: [direct]\n",
-    "validation/rules/a.smk": "rule a:\n    output:\n        'a.csv'\n",
-    "validation/rules/runs.smk": "",
+    "validation/tables/columns.csv": "",
+    "docs/source.py": "1",
+    **{f"config/{name}.yaml": "a: 1\n" for name in ("blades", "config", "fidelity", "scenes")},
+    "validation/plan/a.py": "",
+    "validation/evidence/__init__.py": "",
+    "validation/step.py": "",
+    "validation/evidence/steps.py": "def first(input, output, params):\n    return 1\n\ndef other(): return 2\n",
 }
 
 
 @pytest.fixture
-def committed(tmp_path):
-    """A folder with one table, whose record is that of now, and what says which of its files are out of date."""
+def committed(tmp_path, monkeypatch):
+    """A folder with one table, made of a run and another item, and what says which of its files are out of date."""
     for name, text in FILES.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text)
     (tmp_path / PAGE).write_text(renewed(FILES[PAGE], [tmp_path / TABLE]))
+    contents = {"fan": {"speeds": [1]}}
+    monkeypatch.setattr(Run, "content", property(lambda run: contents[run.name]))
 
-    def made_from(code="1"):
-        return MadeFrom(tmp_path, {TABLE: (tmp_path / "validation/rules/a.smk", code)}, ENGINE, {})
+    def changed(step="evidence.steps.first", speeds=(1,), between="evidence.steps.first", more=()):
+        contents["fan"] = {"speeds": list(speeds)}
+        middle = Item(between, {"file": "results/evidence/b.csv"}, {"run": "results/runs/fan/ranking.csv"})
+        last = Item(step, {"table": TABLE}, {"files": "results/evidence/b.csv"}, sources=["docs/source.py"])
+        module = type(sys)("plan.a")
+        module.FAN, module.EVIDENCE = Run("fan"), [middle, last, *more]
+        monkeypatch.setattr(plans, "import_module", lambda name: module)
+        return Plan(tmp_path)
 
-    assert made_from().out_of_date(Pages(tmp_path)) == [TABLE]
-    made_from().note([TABLE, "results/b.csv"])
+    assert list(out_of_date(changed())) == [TABLE]
+    note(changed(), [TABLE, "results/evidence/b.csv"])
     assert list(read_json(tmp_path / RECORD)) == [TABLE]
-    return tmp_path, lambda code="1": made_from(code).out_of_date(Pages(tmp_path))
+    return tmp_path, changed
 
 
-def test_times_and_layout_make_nothing_out_of_date(committed):
-    folder, out_of_date = committed
-    (folder / "validation/rules/a.smk").write_text("# one\nrule a:\n    output: 'a.csv'\n")
-    (folder / "config/config.yaml").write_text("# two\nscenes:\n- direct\n")
+def test_times_layout_and_other_items_make_nothing_out_of_date(committed):
+    folder, plan = committed
+    (folder / "config/config.yaml").write_text("# one\na:\n  1\n")
+    (folder / "validation/evidence/steps.py").write_text(FILES["validation/evidence/steps.py"].replace("2", "3") + "# more\n")
     for number, name in enumerate([PAGE, *FILES]):
         os.utime(folder / name, (1e9 + number, 1e9 + number))
-    assert out_of_date() == []
-    # Snakemake compares the page with its table
-    assert (folder / PAGE).stat().st_mtime > (folder / TABLE).stat().st_mtime
+    more = Item("evidence.steps.other", {"file": "results/evidence/c.csv"}, {"run": "results/runs/fan/summary.csv"})
+    assert out_of_date(plan(more=[more])) == {}
+
+
+@pytest.mark.parametrize(
+    "change", [{"step": "evidence.steps.other"}, {"speeds": (1, 2)}, {"between": "evidence.steps.other"}], ids=str
+)
+def test_what_an_item_uses_makes_it_out_of_date(committed, change):
+    assert list(out_of_date(committed[1](**change))) == [TABLE]
 
 
 @pytest.mark.parametrize(
     ("name", "text"),
     [
-        ("validation/rules/a.smk", FILES["validation/rules/a.smk"] + "    params: b=1\n"),
-        ("validation/rules/runs.smk", "x = 1\n"),
-        ("config/config.yaml", "scenes: [abradable]\n"),
-        (ENGINE, "{1}"),
+        (ENGINE, '{"a": 1}'),
+        ("config/config.yaml", "a: 2\n"),
+        ("docs/source.py", "2"),
+        (TABLE, "x\n2\n"),
     ],
 )
-def test_other_content_makes_a_table_out_of_date(committed, name, text):
-    folder, out_of_date = committed
+def test_a_change_of_a_file_makes_it_out_of_date(committed, name, text):
+    folder, plan = committed
     (folder / name).write_text(text)
-    assert out_of_date() == [TABLE]
+    assert TABLE in out_of_date(plan())
 
 
-def test_a_configuration_that_no_rule_names_makes_nothing_out_of_date(committed):
-    folder, out_of_date = committed
-    (folder / "config/others.yaml").write_text("{}")
-    assert out_of_date() == []
-    (folder / "config/a.yaml").write_text("{}")
-    assert out_of_date() == [TABLE]
-
-
-def test_other_code_or_another_table_makes_out_of_date(committed):
-    folder, out_of_date = committed
-    assert out_of_date("2") == [TABLE]
-    (folder / TABLE).write_text("x\n2\n")
-    assert out_of_date() == [PAGE]
+def test_a_page_with_other_numbers_and_a_table_that_nothing_makes_are_named(committed):
+    folder, plan = committed
+    (folder / PAGE).write_text("<!-- table a -->\n<!-- end -->\n[b](../validation/tables/b.csv)\n")
+    assert set(out_of_date(plan())) == {PAGE, "validation/tables/b.csv"}

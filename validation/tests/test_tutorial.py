@@ -1,7 +1,6 @@
 """The tutorial runs and finds what its notebook shows. It needs the extra `docs`: make site."""
 
 import re
-import runpy
 
 import pytest
 from conftest import CHECKOUT
@@ -12,9 +11,10 @@ from test_site import need
 def test_the_tutorial_runs_and_finds_what_it_shows():
     need("nbformat", "jupytext", "nbclient", "ipykernel")
     import nbformat
+    from evidence.tutorial import executed
 
     notebook = nbformat.read(CHECKOUT / "docs/tutorial.ipynb", as_version=4)
-    again = runpy.run_path(str(CHECKOUT / "validation/tutorial.py"))["executed"]()
+    again = executed(CHECKOUT / "docs/tutorial.py")
 
     def printed(one):
         return [output.text for cell in one.cells for output in cell.get("outputs", []) if output.output_type == "stream"]

@@ -1,0 +1,217 @@
+"""Which blade and which interactions: the one set of runs, what it was tried with, and what linear theory gives."""
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.axes import Axes
+
+from r37core.base.dataset_file import read_dataset
+from r37core.figures import style
+from r37core.results.closing import interaction_title
+from r37core.results.columns import MOST_REVOLUTIONS
+from r37core.results.exceedance import Exceedance, exceedance_of
+from r37core.results.measures import motion
+from r37core.results.other_motions import swept, worst_exceedance
+from r37core.results.ranking import read_ranking
+from r37core.results.regions import read_judged
+from r37core.results.table_file import read_table
+
+from .answer import ON_ANY_PAGE
+from .pages import write_table
+
+LINING, BARE = "material_abradable", "direct"
+SCENES = {BARE: "bare casing", LINING: "abradable lining"}
+TRIED = {
+    "twice": "twice as long",
+    "friction": "0.1% more friction",
+    "elastic": "flexible casing",
+    "pressed": "contact length 0.5 mm",
+}
+"""Scenes of the cases by the beginning of their names, and what they vary."""
+
+LENGTH, WORST = "length_most_revolutions_rad_s", "length_most_revolutions_worst_rad_s"
+REGIONS = {"box at the root alone": "_box", "modes above 7.5 kHz, too": "_airfoil_unfiltered"}
+"""Regions of the stress, and the part of a column's name."""
+
+DRAWN = ("Ref", "S100")
+"""Blades whose motion is drawn: without sweep, and with most of it."""
+
+INTERACTIONS = ("blade", "1B/4 at (rad/s)", "three longest ranges above yield (rad/s)", "all ranges (rad/s)")
+INTERACTIONS += ("largest motion (mm)", "largest from rest", "at (rad/s)")
+"""Columns of the tables of interactions: ranges and motion by the worst motion, the last two from rest."""
+
+MOTION = ("largest motion (mm)", "at (rad/s)", "above yield (rad/s)")
+"""Columns of the table of large motion, for each contact."""
+
+_LONGEST = 3
+
+
+def draw(input: Any, output: Any, params: Any) -> None:
+    """Lengths above yield by blade, from rest and by the worst motion. Inputs: ranking, linear. Outputs: table, picture."""
+    ranking, linear = (read_ranking(file).set_index(["scene", "blade"]) for file in (input.ranking, input.linear))
+    columns: dict[str, pd.Series] = {}
+    for scene, words in SCENES.items():
+        columns[f"{words}: from rest"] = ranking.loc[scene, LENGTH]
+        columns[f"{words}: worst motion"] = np.maximum(ranking.loc[scene, LENGTH], ranking.loc[scene, WORST])
+        columns[f"{words}: linear"] = linear.loc[scene, LENGTH]
+    lengths = pd.DataFrame(columns).sort_values("bare casing: worst motion").round()
+    _write(lengths.map("{:.0f}".format), output.table)
+    with plt.rc_context(ON_ANY_PAGE):
+        figure, panels = plt.subplots(2, 1, figsize=(5.2, 5.0), sharex=True)
+        for axes, words in zip(panels, SCENES.values(), strict=True):
+            _bars(axes, lengths[f"{words}: from rest"], lengths[f"{words}: worst motion"])
+            axes.set_title(words, loc="left", fontweight="bold")
+        panels[-1].set_xlabel("speeds above yield, of 1,250 rad/s")
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2, handlelength=1.2)
+        style.save(figure, output.picture, dots_per_inch=150)
+
+
+def _bars(axes: Axes, rest: pd.Series, worst: pd.Series) -> None:
+    """Two bars on each other for each blade, the best blade at the top."""
+    places = np.arange(len(rest), dtype=float)
+    axes.barh(places, worst, 0.6, color="#F2C6A7", label="worst of three motions")
+    axes.barh(places, rest, 0.6, color="#D55E00", label="from rest")
+    for place, length in zip(places, worst, strict=True):
+        axes.annotate(f"{length:.0f}", (length, place), (5, 0), textcoords="offset points", va="center", fontsize=9)
+    axes.set(yticks=places, yticklabels=rest.index, xlim=(0.0, 1250.0))
+    axes.invert_yaxis()
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(axis="y", length=0)
+
+
+def checks(input: Any, output: Any, params: Any) -> None:
+    """What each change does to the lengths above yield (rad/s), by contact and blade. Output: table.
+
+    Inputs: ranking and motions of all speeds; base, bare and fine, responses on the bare casing; lined and lined_fine, motions.
+    """
+    rows: dict[tuple[str, str], dict[str, float]] = {}
+    ranking = read_ranking(input.ranking).set_index(["scene", "blade"])
+    every, coarse = read_dataset(input.motions), _speeds_of(input.bare[0])
+    for scene, words in SCENES.items():
+        rows[words, "all speeds, worst motion"] = dict(ranking.loc[scene, WORST])
+        rows[words, "all speeds, from rest"] = dict(ranking.loc[scene, LENGTH])
+        for name, part in REGIONS.items():
+            rows[words, f"{name}, from rest"] = dict(ranking.loc[scene, LENGTH.replace("_rad", f"{part}_rad")])
+    responses = {"every 25 rad/s, from rest": input.base, "fine mesh, half the step": input.fine}
+    for file in input.bare:
+        responses.setdefault(TRIED[_scene_of(file).split("_")[0]], []).append(file)
+    for name, files in responses.items():
+        rows[SCENES[BARE], name] = {_blade_of(file): _length_at(read_judged(file), coarse) for file in files}
+    cases = read_dataset(input.lined)
+    speeds = cases["speed"].values
+    motions = {
+        "1540 to 1780 rad/s every 5": (every, LINING),
+        "fine mesh, half the step": (read_dataset(input.lined_fine), LINING),
+    }
+    motions |= {TRIED[str(scene).split("_")[0]]: (cases, str(scene)) for scene in cases["scene"].values}
+    for name, (dataset, scene) in motions.items():
+        rows[SCENES[LINING], name] = _worst_lengths(dataset, scene, speeds)
+    table = pd.DataFrame(rows).T.rename_axis(["contact", "what"]).sort_index(level=0, sort_remaining=False, kind="stable")
+    table.insert(0, "order", [", ".join(row.sort_values(kind="stable").index) for _, row in table.iterrows()])
+    text = table.map(lambda cell: cell if isinstance(cell, str) else f"{cell:.0f}").reset_index()
+    write_table(list(text.columns), text.astype(str).values.tolist(), output.table)
+
+
+def _length_at(response: xr.Dataset, speeds: np.ndarray) -> float:
+    return exceedance_of(response.sel(speed=speeds)).length(MOST_REVOLUTIONS)
+
+
+def _worst_lengths(motions: xr.Dataset, scene: str, speeds: np.ndarray) -> dict[str, float]:
+    return {blade: _worst(motions.sel(speed=speeds), blade, scene).length(MOST_REVOLUTIONS) for blade in _blades(motions)}
+
+
+def _worst(motions: xr.Dataset, blade: str, scene: str) -> Exceedance:
+    """Exceedance of the worst motion of a blade in a scene."""
+    return worst_exceedance(swept(motions.sel(blade=blade, scene=scene)))
+
+
+def interactions(input: Any, output: Any, params: Any) -> None:
+    """Longest ranges above yield by the worst motion. Inputs: motions, summary, campbell. Outputs: lining, bare, tables."""
+    motions, campbell = read_dataset(input.motions), read_dataset(input.campbell)
+    summary = read_table(input.summary)
+    for scene, file in ((LINING, output.lining), (BARE, output.bare)):
+        rows = []
+        for blade in _blades(motions):
+            ranges = _worst(motions, blade, scene).ranges(MOST_REVOLUTIONS)
+            longest = sorted(sorted(ranges, key=lambda part: -part.length)[:_LONGEST], key=lambda part: part.begin)
+            words = ", ".join(f"{part.begin:.0f} to {part.end:.0f} ({part.length:.0f})" for part in longest)
+            own = summary[(summary["blade"] == blade) & (summary["scene"] == scene)]
+            top = own.sort_values("peak_motion_m").tail(1)
+            largest = 1e3 * float(motions.sel(blade=blade, scene=scene)["motion_mean"].max())
+            crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=4))
+            rows.append([blade, f"{crossing:.0f}", words, f"{sum(part.length for part in ranges):.0f}", f"{largest:.1f}"])
+            titles = [interaction_title(mode, order) for mode, order in zip(top["mode"], top["engine_order"], strict=True)]
+            rows[-1] += [*titles, *(f"{speed:.0f}" for speed in top["peak_speed_rad_s"])] or ["-", "-"]
+        head = [
+            "blade",
+            "1B/4 at (rad/s)",
+            "three longest ranges above yield (rad/s)",
+            "all ranges (rad/s)",
+            "largest motion (mm)",
+        ]
+        write_table([*head, "largest from rest", "at (rad/s)"], rows, file)
+
+
+def large_motion(input: Any, output: Any, params: Any) -> None:
+    """Linear theory beside large displacements. Inputs: linear, quadratic, responses. Outputs: table, picture."""
+    runs = {
+        name: {(_blade_of(file), _scene_of(file)): read_judged(file) for file in files}
+        for name, files in (("linear", input.linear), ("large displacements", input.quadratic))
+    }
+    rows: dict[str, dict[str, str]] = {}
+    for blade, scene in runs["linear"]:
+        texts = [_texts(of[blade, scene]) for of in runs.values()]
+        for what, pair in zip(
+            ("largest motion (mm)", "at (rad/s)", "above yield (rad/s)"), zip(*texts, strict=True), strict=True
+        ):
+            rows.setdefault(blade, {})[f"{SCENES[scene]}: {what}"] = " / ".join(pair)
+    _write(pd.DataFrame.from_dict(rows, orient="index"), output.table)
+    figure, panels = plt.subplots(
+        len(DRAWN), len(SCENES), figsize=(style.PAGE, 0.6 * style.PAGE), sharex=True, sharey="row", layout="constrained"
+    )
+    for row, blade in zip(panels, DRAWN, strict=True):
+        for axes, scene in zip(row, (LINING, BARE), strict=True):
+            for name, of in runs.items():
+                axes.plot(of[blade, scene]["speed"], 1e3 * np.asarray(motion(of[blade, scene])), label=name, linewidth=1.2)
+            axes.set_title(f"{blade}, {SCENES[scene]}")
+            axes.set_ylim(bottom=0.0)
+            axes.grid(alpha=0.3)
+        row[0].set_ylabel("motion, rms (mm)")
+    for axes in panels[-1]:
+        axes.set_xlabel("speed (rad/s)")
+    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=2, frameon=False)
+    style.save(figure, output.picture)
+
+
+def _texts(response: xr.Dataset) -> tuple[str, str, str]:
+    """Largest motion (mm), its speed (rad/s), and the length above yield (rad/s)."""
+    moved = motion(response)
+    largest = int(np.nanargmax(moved))
+    length = exceedance_of(response).length(MOST_REVOLUTIONS)
+    return f"{1e3 * float(moved[largest]):.1f}", f"{float(response['speed'][largest]):.0f}", f"{length:.0f}"
+
+
+def _write(cells: pd.DataFrame, file: str) -> None:
+    write_table(
+        ["blade", *cells], [[str(blade), *row] for blade, row in zip(cells.index, cells.values.tolist(), strict=True)], file
+    )
+
+
+def _blades(motions: xr.Dataset) -> list[str]:
+    return [str(blade) for blade in motions["blade"].values]
+
+
+def _blade_of(file: str) -> str:
+    return Path(file).parts[-3]
+
+
+def _scene_of(file: str) -> str:
+    return Path(file).parts[-2]
+
+
+def _speeds_of(file: str) -> np.ndarray:
+    return read_judged(file)["speed"].values

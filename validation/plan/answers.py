@@ -1,0 +1,75 @@
+"""Which blade, which interactions, what large displacements change: the one set of runs, and what its answer was tried with."""
+
+from evidence.plan import Item, Run, table
+
+from plan.runs import ALL_SPEEDS, BLADES, DECIDING, SCENES
+
+LINED = [f"{kind}_abradable" for kind in ("twice", "friction", "elastic", "pressed")]
+BARE = [f"{kind}_direct" for kind in ("twice", "friction", "elastic")]
+# on the bare casing all speeds count, on the lining those about 1B/4 of all blades, with carried motions
+COARSE = [{"start": 750, "stop": 2000, "step": 25}]
+ABOUT_1B_4 = [{"start": 1540, "stop": 1780, "step": 5}]
+CARRIED = {"from_rad_s": 1540, "to_rad_s": 1780, "step_rad_s": 5, "dwell": {"range_speeds": 0}}
+
+
+def tried(name, lined, bare, **changes):
+    """A run of other scenes, or at another level."""
+    return Run(
+        name,
+        keys={
+            **DECIDING,
+            "scenes": [*lined, *bare],
+            "speeds": COARSE,
+            "speeds_for": [{"scenes": lined, "speeds": ABOUT_1B_4}],
+            "second_motions": {
+                "scenes": lined,
+                "from_rad_s": 1540,
+                "to_rad_s": 1780,
+                "step_rad_s": 5,
+                "dwell": {"range_speeds": 0},
+            },
+            **changes,
+        },
+    )
+
+
+CASES = tried("cases", LINED, BARE)
+FINE = tried("cases_fine", *[[scene] for scene in SCENES], fidelity="fine")
+LINEAR = Run(
+    "linear",
+    keys={
+        **DECIDING,
+        "structure": {"kinematics": "linear", "boundary": {"contact": "patches"}},
+        "speeds": [{"start": 750, "stop": 2000, "step": 10}],
+    },
+)
+
+RESPONSES = {"quadratic": ALL_SPEEDS.responses(BLADES, *SCENES), "linear": LINEAR.responses(BLADES, *SCENES)}
+MOTIONS = {"motions": f"{ALL_SPEEDS.folder}/second_motions.nc"}
+
+EVIDENCE = [
+    Item(
+        "evidence.answers.draw",
+        {"table": table("answer"), "picture": "docs/answer.png"},
+        {"ranking": f"{ALL_SPEEDS.folder}/ranking.csv", "linear": f"{LINEAR.folder}/ranking.csv"},
+    ),
+    Item(
+        "evidence.answers.checks",
+        {"table": table("answer_checks")},
+        {
+            "ranking": f"{ALL_SPEEDS.folder}/ranking.csv",
+            "base": ALL_SPEEDS.responses(BLADES, "direct"),
+            "bare": [file for scene in BARE for file in CASES.responses(BLADES, scene)],
+            "fine": FINE.responses(BLADES, "direct"),
+            **MOTIONS,
+            "lined": f"{CASES.folder}/second_motions.nc",
+            "lined_fine": f"{FINE.folder}/second_motions.nc",
+        },
+    ),
+    Item(
+        "evidence.answers.interactions",
+        {"lining": table("interactions_lining"), "bare": table("interactions_bare")},
+        {**MOTIONS, "campbell": f"{ALL_SPEEDS.folder}/campbell.nc", "summary": f"{ALL_SPEEDS.folder}/summary.csv"},
+    ),
+    Item("evidence.answers.large_motion", {"table": table("large_motion"), "picture": "docs/large_motion.png"}, RESPONSES),
+]
