@@ -166,7 +166,7 @@ class Plan:
         # the numbers of the engine are made again when any of its code has changed, all else when these move
         yield self._code("step", part.step) if ENGINE not in part.files else self._all_code(part.step)
         yield repr((part.step, part.outputs, part.inputs, part.params))
-        yield from ((self.root / source).read_text(encoding="utf-8") for source in part.sources)
+        yield from (hashlib.sha256((self.root / source).read_bytes()).hexdigest() for source in part.sources)
         if ENGINE not in part.files:
             yield self._engine
         items, runs = self.behind(part)

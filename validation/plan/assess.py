@@ -4,7 +4,7 @@ from pathlib import Path
 
 from evidence.plan import Item, table
 
-FAN = sorted(str(file) for file in Path("examples/fan").iterdir())
+FAN = sorted(str(file) for file in Path("examples/fan").iterdir() if file.is_file())
 
 EVIDENCE = [
     Item(
