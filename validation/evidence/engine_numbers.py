@@ -106,7 +106,7 @@ def moved(known: Numbers, now: Numbers) -> list[str]:
 
 def renew(input: Any, output: Any, params: Any) -> None:
     """Measure the numbers; what did not move stays as it is, whatever the processor. Output: the file, which may be there."""
-    file = Path(output[0])
+    file = Path(output.numbers)
     known: Numbers = read_json(file) if file.exists() else {}
     now = measured(Path.cwd())
     changed = moved(known, now)

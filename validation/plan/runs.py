@@ -19,14 +19,9 @@ DECIDING = {
 }
 """What a decision is made on: patches, large displacements, runs until they have settled, stress of rotation included."""
 
-SPEEDS = {"from_rad_s": 750, "to_rad_s": 2000, "step_rad_s": 2.5}
+CARRIED = {"from_rad_s": 750, "to_rad_s": 2000, "step_rad_s": 5, "dwell": {"range_speeds": 0}}
 
-# the one set of runs: all speeds, from rest and carried up and down, each as long
+# the one set of runs: from rest at all speeds and carried up and down at every second one, each as long
 ALL_SPEEDS = Run(
-    "all_speeds",
-    keys={
-        **DECIDING,
-        "speeds": [{"start": 750, "stop": 2000, "step": 2.5}],
-        "second_motions": {**SPEEDS, "dwell": {"range_speeds": 0}},
-    },
+    "all_speeds", keys={**DECIDING, "speeds": [{"start": 750, "stop": 2000, "step": 2.5}], "second_motions": CARRIED}
 )

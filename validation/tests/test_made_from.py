@@ -71,13 +71,7 @@ def test_what_an_item_uses_makes_it_out_of_date(committed, change):
 
 
 @pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        (ENGINE, '{"a": 1}'),
-        ("config/config.yaml", "a: 2\n"),
-        ("docs/source.py", "2"),
-        (TABLE, "x\n2\n"),
-    ],
+    ("name", "text"), [(ENGINE, '{"a": 1}'), ("config/config.yaml", "a: 2\n"), ("docs/source.py", "2"), (TABLE, "x\n2\n")]
 )
 def test_a_change_of_a_file_makes_it_out_of_date(committed, name, text):
     folder, plan = committed
