@@ -1,1 +1,1 @@
-"""What makes the tables and pictures of the pages. Each subject is a module; a rule of validation/rules runs its functions."""
+"""What makes the tables and pictures of the pages. Each subject is a module; validation/plan says which functions run."""

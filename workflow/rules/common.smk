@@ -12,7 +12,7 @@ from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash, page_parts
 from r37core.base.plain import to_plain
 from r37core.plans import paths
-from r37core.plans.code import CodeHashes, EngineNumbers
+from r37core.plans.code import CodeHashes
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage, structure_stages
 from r37core.plans.structure_plan import Structure
@@ -36,9 +36,8 @@ console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
 PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
-# parameters of rules: a step, which is a function of r37core, and the hash of its code, or what stands for that
-engine = EngineNumbers(Path(settings.config.run.engine)) if settings.config.run.engine else code
-step = engine.step
+# parameters of rules: a step, which is a function of r37core, and the hash of its code
+step = code.step
 made = Provenance(settings)
 structure = Structure(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])

@@ -165,10 +165,9 @@ class OperatingSection(Section):
 
 
 class Run(Section):
-    """Folder of the results, and the file that stands for the code."""
+    """Folder of the results."""
 
     name: Name | LeftOut = left_out("Name of the run, whose results go to results/runs/<name>")
-    engine: FileName | LeftOut = left_out("File in place of the code: its changes alone make results out of date")
 
 
 class Config(Section):

@@ -3,11 +3,10 @@
 import ast
 import hashlib
 import json
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator
 from functools import cache
 from itertools import takewhile
 from pathlib import Path
-from typing import Any
 
 from r37core.machine_code.kept import keep, read_kept
 
@@ -76,24 +75,6 @@ class CodeHashes:
     def _files(self, name: str) -> tuple[Path, ...]:
         counts = name.partition(".")[0] in self._packages
         return module_files(name, (self._scripts, self._source) if counts else (self._scripts,))
-
-
-class EngineNumbers:
-    """Content of a file in place of the hashes of CodeHashes: numbers that stay the same when code is only rearranged.
-
-    Each is a function of the wildcards, so that Snakemake reads the file when it plans a job, maybe after the file is made.
-    """
-
-    def __init__(self, file: Path):
-        self._file = file
-
-    def __call__(self, *names: str) -> Callable[[Any], str]:
-        """Hash of the content, whatever the names; empty without the file."""
-        return lambda wildcards: hashlib.sha256(self._file.read_bytes()).hexdigest()[:16] if self._file.exists() else ""
-
-    def step(self, function: str, *modules: str) -> dict[str, Any]:
-        """Parameters of a rule that runs this step, as of CodeHashes."""
-        return {"step": f"{PACKAGE}.{function}", "code": self(function)}
 
 
 @cache
