@@ -96,7 +96,7 @@ def checks(input: Any, output: Any, params: Any) -> None:
         rows[words, "all speeds, from rest"] = dict(ranking.loc[scene, LENGTH])
         for name, part in REGIONS.items():
             rows[words, f"{name}, from rest"] = dict(ranking.loc[scene, LENGTH.replace("_rad", f"{part}_rad")])
-    responses = {"every 25 rad/s, from rest": input.base, "fine mesh, half the step": input.fine}
+    responses = {"every 50 rad/s, from rest": input.base, "fine mesh, half the step": input.fine}
     for file in input.bare:
         responses.setdefault(TRIED[_scene_of(file).split("_")[0]], []).append(file)
     for name, files in responses.items():
@@ -104,7 +104,7 @@ def checks(input: Any, output: Any, params: Any) -> None:
     cases = read_dataset(input.lined)
     speeds = cases["speed"].values
     motions = {
-        "1540 to 1780 rad/s every 5": (every, LINING),
+        "1540 to 1780 rad/s every 10": (every, LINING),
         "fine mesh, half the step": (read_dataset(input.lined_fine), LINING),
     }
     motions |= {TRIED[str(scene).split("_")[0]]: (cases, str(scene)) for scene in cases["scene"].values}
