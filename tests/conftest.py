@@ -31,7 +31,7 @@ os.environ["SOURCE_DATE_EPOCH"] = "1000000000"
 
 CHECKOUT = Path(__file__).parent.parent
 CONFIGURATION = Path(__file__).parent / "config"
-DELIVERED = ("docs", "envs", "examples", "profiles", "workflow", "pyproject.toml", "CITATION.cff")
+DELIVERED = ("docs", "envs", "examples", "profiles", "validation", "workflow", "pyproject.toml", "CITATION.cff")
 DELIVERED += ("Makefile", "MANIFEST.in", "Snakefile", "CHANGELOG.md", "CONTRIBUTING.md", "README.md")
 DELIVERED += ("codemeta.json", ".zenodo.json", "CODE_OF_CONDUCT.md", ".pre-commit-config.yaml")
 

@@ -60,6 +60,7 @@ def built(root, tmp_path_factory):
     broken = made / "broken"
     shutil.copytree(root / "docs/site", broken / "docs/site")
     shutil.copytree(root / "src/r37core/contact", broken / "src/r37core/contact")
+    shutil.copytree(root / "validation/evidence", broken / "validation/evidence")
     (broken / "docs/index.md").write_text("# One\n\n[two](index.md#three)\n")
     sites = {root: made / "site", broken: made / "site_of_broken"}
     command = [sys.executable, "-c", BUILD, *(str(path) for pair in sites.items() for path in pair)]
@@ -97,6 +98,15 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
         drawn = page.locator(".equation svg").evaluate_all("all => all.map(one => one.getBoundingClientRect().width)")
         assert len(drawn) >= 5
         assert min(drawn) > 50
+        page.goto((site / "index.html").as_uri())
+        page.locator("article a", has_text="the explorer").click()
+        page.wait_for_selector("html[data-ready]")
+        assert "seven" in page.locator("h1").inner_text()
+        page.goto((site / "tables/index.html").as_uri())
+        page.locator("article td a").first.click()
+        assert page.locator("h1").inner_text().startswith("Table: ")
+        assert page.locator("article tbody tr").count()
+        assert "snakemake -s validation/Snakefile --cores 2 results/evidence/stamps/" in page.locator("article").inner_text()
         assert page.problems == []
 
 
@@ -182,7 +192,7 @@ def test_an_unknown_command_of_latex_is_refused(drawing):
 def test_every_page_is_in_the_site(root):
     index = (root / "docs/index.md").read_text()
     for page in (root / "docs").glob("*.md"):
-        assert page.stem == "index" or re.search(rf"^{page.stem}$|<{page.stem}>$", index, re.MULTILINE), page.name
+        assert page.stem == "index" or f"]({page.name})" in index.partition("## All pages")[2], page.name
 
 
 @pytest.mark.parametrize("name", [name for name in r37.__all__ if callable(getattr(r37, name))])
@@ -194,12 +204,22 @@ def test_docstrings_have_purpose_results_and_errors(name):
         assert all(f"\n\n{section}:\n" in text for section in ("Args", "Returns", "Raises", "Examples"))
 
 
-def test_pages_are_named_by_words_and_the_graph_of_rules_becomes_a_table(root):
-    """Other files are no links."""
+def test_links_lead_to_pages_of_the_site(root):
+    """By words; tables and numbers to tables, the explorer to itself. Other files are no links."""
     adapt = runpy.run_path(str(root / "docs/site/repository_links.py"))["adapt"]
-    text = ["See [your_blade.md](your_blade.md#a). [speed.md](speed.md) and [`config.yaml`](../config/config.yaml)."]
-    adapt(None, "page", text)
-    assert text == ["See [your blade](your_blade.md#a). [Speed](speed.md) and `config.yaml`."]
-    text = ["```mermaid\nflowchart LR\n    mesh --> model\n    mesh --> deck\n```"]
-    adapt(None, "page", text)
-    assert text == ["| rule | its results go to |\n|---|---|\n| `mesh` | `model`, `deck` |"]
+    pages = {
+        "See [your_blade.md](your_blade.md#a). [speed.md](speed.md) and [`config.yaml`](../config/config.yaml).": (
+            "See [your blade](your_blade.md#a). [Speed](speed.md) and `config.yaml`."
+        ),
+        "[All](../validation/tables/a.csv), [more](../validation/tables).": "[All](tables/a.md), [more](tables/index.md).",
+        "0.5<!--a:Ref:b:1-->% of [7<!--a:S50:b-->](c.md)": "[0.5](tables/a.md){.number}% of [7<!--a:S50:b-->](c.md)",
+        "[it](results.md#the-explorer)": "[it](site:explorer.html)",
+        "![It](explorer.png)": "[![It](explorer.png)](site:explorer.html)",
+        "## All pages\n\n- **Start**: [one](one.md), [two](two.ipynb)\n": (
+            "```{toctree}\n:hidden:\n:caption: Start\none\ntwo\n```\n\n"
+        ),
+    }
+    for text, adapted in pages.items():
+        source = [text]
+        adapt(None, "page", source)
+        assert source == [adapted]

@@ -15,12 +15,14 @@ from r37core import __version__  # noqa: E402
 
 project = "r37"
 version = release = __version__
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.linkcode", "api_pages", "equations", "pictures", "repository_links"]
-extensions += ["search_words", "source_pages"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.linkcode", "api_pages", "equations", "explorer_page", "pictures"]
+extensions += ["repository_links", "search_words", "source_pages", "table_pages"]
 exclude_patterns = ["site/*", "tutorial.py"]
 
 # pages are Markdown as GitHub shows it, with $...$ and $$...$$ for formulas
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["attrs_inline", "dollarmath"]
+# site: leads to a page that Sphinx does not write
+myst_url_schemes = {"http": None, "https": None, "site": "{{path}}"}
 # links to headings, as far down as pages have any
 myst_heading_anchors = 4
 # make validation runs the notebook; the site shows what it has

@@ -1,32 +1,48 @@
-"""What stands in a page for readers of the repository, and is no page of the site."""
+"""What stands in a page for readers of the repository, as readers of the site need it."""
 
 import re
 
+_NUMBER = r"(?P<number>[-+]?\d[\d.,]*\d|[-+]?\d)<!--(?P<table>\w+):[^>]*-->"
+
 
 def adapt(app, name, source):
-    """Name files that are no page instead of linking them, pages by their words, and make the graph of rules a table.
+    """Lead tables, numbers and the explorer to their pages, name other files of the repository, and pages by their words.
 
-    The graph is a diagram of mermaid in the repository, which needs scripts.
+    The list of pages of the index becomes the contents at the side.
     """
-    text = re.sub(r"\[`?([^\]`]+)`?\]\(\.\./[^)]+\)", r"`\1`", source[0])
+    # of table_pages.py, which are of the site alone
+    if name.startswith("tables/"):
+        return
+    text = re.sub(r"\]\(\.\./validation/tables(?:/(\w+)\.csv)?\)", lambda link: f"](tables/{link[1] or 'index'}.md)", source[0])
+    text = re.sub(r"\[`?([^\]`]+)`?\]\(\.\./[^)]+\)", r"`\1`", text)
+    text = re.sub(rf"\[[^\]]*\]\([^)]*\)|{_NUMBER}", number, text)
+    text = text.replace("](results.md#the-explorer)", "](site:explorer.html)")
+    text = re.sub(r"(!\[[^\]]*\]\(explorer\.png\))(?!\])", r"[\1](site:explorer.html)", text)
     text = re.sub(r"\[(\w+)\.md\](?=\(\1\.md)", wording, text)
-    source[0] = re.sub(r"```mermaid\nflowchart LR\n(.*?)```", lambda found: table(found[1]), text, flags=re.DOTALL)
+    source[0] = re.sub(r"^## All pages\n.*?(?=^#|\Z)", contents, text, flags=re.DOTALL | re.MULTILINE)
 
 
-def wording(found):
+def number(match):
+    """A number as a link to the table that it is from; none within another link."""
+    return match[0] if match["number"] is None else f"[{match['number']}](tables/{match['table']}.md){{.number}}"
+
+
+def contents(section):
+    """The lists of pages of a section, `- **Title**: [page](page.md), ...`, as contents."""
+    groups = re.findall(r"^- \*\*(.*?)\*\*: (.*)$", section[0], re.MULTILINE)
+    return "".join(f"```{{toctree}}\n:hidden:\n:caption: {title}\n{linked(pages)}\n```\n\n" for title, pages in groups)
+
+
+def linked(pages):
+    """Names of the pages that are linked, one a line."""
+    return "\n".join(re.findall(r"\]\(([\w/]+)\.\w+\)", pages))
+
+
+def wording(match):
     """A link with the page's words in place of its file's name; a capital where a sentence begins."""
-    words = found[1].replace("_", " ")
-    begins = re.search(r"(\A|[.!?]\s+|\n\s*\n|\n\s*- )\Z", found.string[: found.start()])
+    words = match[1].replace("_", " ")
+    begins = re.search(r"(\A|[.!?]\s+|\n\s*\n|\n\s*- )\Z", match.string[: match.start()])
     return f"[{words.capitalize() if begins else words}]"
-
-
-def table(edges):
-    """Edges of a flowchart, one row for all that leave a node."""
-    rows = {}
-    for one, other in re.findall(r"(\w+) --> (\w+)", edges):
-        rows.setdefault(one, []).append(f"`{other}`")
-    lines = [f"| `{one}` | {', '.join(others)} |" for one, others in rows.items()]
-    return "\n".join(["| rule | its results go to |", "|---|---|", *lines])
 
 
 def setup(app):

@@ -1,5 +1,6 @@
-"""The explorer of a finished run as Chromium shows it."""
+"""The explorer of a finished run as Chromium shows it, and its contents, of which the site makes the page again."""
 
+import re
 import shutil
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ _WITHOUT_GRAPHICS_CARD = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-
 
 
 def picture(input: Any, output: Any, params: Any) -> None:
-    """Picture of the first screen, in light, at the interaction that the page opens at. Input: the page.
+    """Picture of the first screen, at the interaction that the page opens at. Input: page. Outputs: picture, contents.
 
     Raises InputFileError without Chromium.
     """
@@ -23,8 +24,11 @@ def picture(input: Any, output: Any, params: Any) -> None:
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=list(_WITHOUT_GRAPHICS_CARD))
         page = browser.new_page(viewport={"width": 1200, "height": 1000}, color_scheme="light")
-        page.goto(Path(input[0]).resolve().as_uri())
+        page.goto(Path(input.page).resolve().as_uri())
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         page.wait_for_timeout(1000)
-        page.screenshot(path=output[0])
+        page.screenshot(path=output.picture)
         browser.close()
+    text = Path(input.page).read_text(encoding="utf-8")
+    contents = re.search(r'<script type="application/json" id="data">(.*)</script>', text)
+    Path(output.contents).write_text(f"{contents[1]}\n", encoding="utf-8")
