@@ -223,3 +223,13 @@ def test_links_lead_to_pages_of_the_site(root):
         source = [text]
         adapt(None, "page", source)
         assert source == [adapted]
+
+
+def test_a_table_has_the_sentences_that_rest_on_it(root):
+    statements = runpy.run_path(str(root / "docs/site/table_pages.py"))["statements"]
+    page = """**Peaks move by 3<!--peaks:Ref:change-->%.** Nothing else does ([all](../validation/tables/others.csv)).
+
+- At `draft` they [move more](../validation/tables/peaks.csv).
+"""
+    assert list(statements(page, "peaks")) == ["Peaks move by 3%.", "At draft they move more."]
+    assert list(statements(page, "others")) == ["Nothing else does (all)."]
