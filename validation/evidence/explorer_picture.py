@@ -1,19 +1,20 @@
 """The explorer of a finished run as Chromium shows it, and its contents, of which the site makes the page again."""
 
+import json
 import re
 import shutil
 from pathlib import Path
 from typing import Any
 
-from r37core.base.io import InputFileError
+from r37core.base.io import InputFileError, write_text
 
 _WITHOUT_GRAPHICS_CARD = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
 
 
 def picture(input: Any, output: Any, params: Any) -> None:
-    """Picture of the first screen, at the interaction that the page opens at. Input: page. Outputs: picture, contents.
+    """Picture of the first screen, at the interaction that the page opens at, and the contents without spectra.
 
-    Raises InputFileError without Chromium.
+    Input: page. Outputs: picture, contents. Raises InputFileError without Chromium.
     """
     # of the tests' packages, which only this step needs
     from playwright.sync_api import sync_playwright
@@ -30,5 +31,6 @@ def picture(input: Any, output: Any, params: Any) -> None:
         page.screenshot(path=output.picture)
         browser.close()
     text = Path(input.page).read_text(encoding="utf-8")
-    contents = re.search(r'<script type="application/json" id="data">(.*)</script>', text)
-    Path(output.contents).write_text(f"{contents[1]}\n", encoding="utf-8")
+    contents = json.loads(re.search(r'<script type="application/json" id="data">(.*)</script>', text)[1])
+    # three quarters of the file
+    write_text(json.dumps(contents | {"spectrum": None}) + "\n", output.contents)
