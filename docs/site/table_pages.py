@@ -64,7 +64,9 @@ def words(name):
 def write_pages(app):
     """Write the pages of all tables and their list, where they differ from what is there."""
     plan, folder = Plan(ROOT), Path(app.srcdir) / "tables"
-    items = {Path(file).stem: item for file, item in plan.committed.items() if file.endswith(".csv")}
+    # a link to one that was never made is refused as a broken one
+    made = (file for file in plan.committed if file.endswith(".csv") and (ROOT / file).exists())
+    items = {Path(file).stem: plan.committed[file] for file in made}
     texts = {file.stem: file.read_text(encoding="utf-8") for file in sorted(Path(app.srcdir).glob("*.md"))}
     written = {name: table_page(name, item, plan.stamp(item), texts) for name, item in items.items()}
     written["index"] = list_page(items)
