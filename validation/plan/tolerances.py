@@ -1,0 +1,31 @@
+"""An interaction under tolerances (docs/tolerances.md)."""
+
+from evidence.plan import Item, Run, table
+
+# fewer speeds, for a wide interaction, and the scene to decide by
+MEMBERS = Run(
+    "tolerances",
+    ("tolerances",),
+    {
+        "scenes_file": "validation/deciding.yaml",
+        "blades": ["Ref"],
+        "fidelity": "draft",
+        "speeds": [{"start": 1660, "stop": 1888, "step": 12}],
+        "speeds_for": [],
+    },
+)
+
+EVIDENCE = [
+    Item(
+        "evidence.tolerances.ranges",
+        {"table": table("tolerance_ranges")},
+        {"table": f"{MEMBERS.folder}/tolerances.csv"},
+        {"mode": "1B", "order": 4},
+    ),
+    Item("evidence.tolerances.numbers", {"table": table("tolerance_numbers")}, {"members": f"{MEMBERS.folder}/tolerances.nc"}),
+    Item(
+        "evidence.pictures.of_run",
+        {"picture": "docs/tolerances_Ref.png"},
+        {"figure": f"{MEMBERS.folder}/figures/tolerances_Ref__material_abradable.png"},
+    ),
+]

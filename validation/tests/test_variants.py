@@ -1,0 +1,77 @@
+"""Tables of rotors, tolerances, searches and lengths of runs, from made-up results."""
+
+import numpy as np
+import xarray as xr
+from evidence import better_blade, lasting, rotor, tolerances
+from evidence.pages import read_table
+from evidence.plan import Named
+
+from r37core.time_integration.settling import MotionAtEnd
+
+
+def response(file, **changes):
+    """A response above yield from 810 to 820 rad/s, written to a file."""
+    speeds = np.arange(800.0, 840.0, 10.0)
+    stress = np.array([0.5, 2.0, 2.0, 0.5])
+    content = {f"max_von_mises_{name}": ("speed", stress) for name in ("ever", "median", "high")}
+    content |= {
+        "share_of_revolutions_above_yield": ("speed", (stress > 1.0).astype(float)),
+        "status": ("speed", np.zeros(4, "i1")),
+        "motion_at_end": ("speed", np.full(4, MotionAtEnd.LASTING, "i1")),
+        "yield_stress": 1.0,
+        "lined": 1.0,
+    }
+    for direction in ("normal", "tangential"):
+        content[f"rms_{direction}"] = (("speed", "tip_point"), np.ones((4, 2)))
+    labels = {"speed": speeds, "tip_point": ["leading_edge", "trailing_edge"]}
+    xr.Dataset(content | changes, labels).to_netcdf(file)
+    return str(file)
+
+
+def test_a_rotor_is_above_yield_where_its_worst_blade_is(tmp_path):
+    speeds = np.arange(800.0, 840.0, 10.0)
+    stress = np.array([[0.5, 0.4], [0.5, 1.5], [3.0, 2.0], [0.2, 0.1]])
+    shares = (stress > 1.0).mean(axis=1)
+    content = {"blade_max_von_mises_ever": (("speed", "blade_number"), stress), "blades_ever_above_yield": ("speed", shares)}
+    content |= {"status": ("speed", np.zeros(4, "i1")), "yield_stress": 1.0}
+    xr.Dataset(content, {"speed": speeds, "blade_number": [1, 2]}).to_netcdf(tmp_path / "rotor.nc")
+    files = {"Ref_single": response(tmp_path / "single.nc"), "Ref_equal": str(tmp_path / "rotor.nc")}
+    params = Named(scenes={"Ref": ["single", "equal"]})
+    rotor.kinds(Named(files), Named(table=tmp_path / "table.csv"), params)
+    _, single, equal = read_table(tmp_path / "table.csv")
+    assert single == ["Ref", "a single blade", "23", "2.00", "1"]
+    assert equal == ["Ref", "36 equal blades", "22", "3.00", "2"]
+
+
+def test_lengths_of_runs_next_to_each_other(tmp_path):
+    files = [response(tmp_path / "short.nc"), response(tmp_path / "long.nc", motion_at_end=("speed", [1, 1, 2, 3]))]
+    output = Named(table=tmp_path / "table.csv", picture=tmp_path / "picture.png")
+    lasting.lasting(Named(runs=files), output, Named(revolutions=["200", "1,000"]))
+    _, short, long = read_table(output.table)
+    assert short[2:] == ["4", "0", "0", "0"] and long[2:] == ["1", "1", "2", "0"]
+    assert output.picture.stat().st_size > 10_000
+
+
+def test_a_coefficient_whose_interval_holds_zero_is_a_dash():
+    known = xr.Dataset({"rank_coefficient": 0.7, "rank_coefficient_low": 0.57, "rank_coefficient_high": 0.82})
+    assert tolerances.coefficient(known) == "0.70 (0.57 to 0.82)"
+    assert tolerances.coefficient(known.assign(rank_coefficient_low=-0.1)) == tolerances.UNKNOWN
+
+
+def test_a_search_is_its_best_design_next_to_the_start(tmp_path):
+    """Two designs, of which the first keeps all constraints."""
+    names, constraints = ["start", "d0000", "d0001"], ["bare", "static", "mass", "first_bending"]
+    content = {
+        "order": ("design", [0, 1, 0]),
+        "feasible": ("design", [1, 1, 0]),
+        "objective_value": (("design", "objective"), [[11.0], [5.0], [2.0]]),
+        "constraint_value": (
+            ("design", "constraint"),
+            [[6.0, 1.0, 2.0, 800.0], [4.0, 1.1, 2.05, 820.0], [9.0, 1.0, 3.0, 850.0]],
+        ),
+    }
+    xr.Dataset(content, {"design": names, "objective": ["lined"], "constraint": constraints}).to_netcdf(tmp_path / "search.nc")
+    better_blade.best(Named(search=str(tmp_path / "search.nc")), Named(table=tmp_path / "table.csv"), Named())
+    _, start, best = read_table(tmp_path / "table.csv")
+    assert start == ["start", "11", "6", "100.0", "100.0", "100.0"]
+    assert best == ["best of 1 of 2 designs", "5", "4", "110.0", "102.5", "102.5"]
