@@ -16,38 +16,36 @@ CLEARANCE, THICKNESS = "scene.casing.clearance_m", "scene.lining.thickness_m"
 
 
 def lengths(input: Any, output: Any, params: Any) -> None:
-    """Lengths above yield over lining and clearance. Input: designs. Outputs: table, picture."""
-    designs = read_table(input.designs)
-    column = "length_most_revolutions_rad_s"
+    """Lengths above yield and largest stress over lining and clearance. Input: designs. Outputs: table, picture."""
+    designs = read_table(input.designs).sort_values(CLEARANCE, kind="stable")
+    clearances = [f"{1e3 * clearance:.2f} mm" for clearance in designs[CLEARANCE].unique()]
     rows = []
     for (blade, thickness), part in designs.groupby(["blade", THICKNESS], sort=False):
-        by_clearance = part.sort_values(CLEARANCE)
-        clearances = [f"{1e3 * clearance:.2f} mm" for clearance in by_clearance[CLEARANCE]]
-        rows.append([blade, f"{1e3 * thickness:g}", *(f"{length:.0f}" for length in by_clearance[column])])
+        numbers = zip(part["length_most_revolutions_rad_s"], part["largest_stress_over_yield"], strict=True)
+        rows.append([blade, f"{1e3 * thickness:g}", *(f"{length:.0f} ({stress:.2f})" for length, stress in numbers)])
     write_table(["blade", "lining (mm)", *clearances], rows, output.table)
-    draw_lengths(pd.DataFrame(rows, columns=["blade", "lining", *clearances]), output.picture)
+    draw_stresses(designs, output.picture)
 
 
-def draw_lengths(table: pd.DataFrame, file: str) -> None:
-    """A map of lengths for each blade: thickness of the lining over clearance."""
-    blades = {str(blade): part for blade, part in table.groupby("blade", sort=False)}
-    letters: dict[Any, Any] = {f"{name}size": 9 for name in ("font.", "axes.title", "axes.label", "xtick.label", "ytick.label")}
-    largest = table.iloc[:, 2:].astype(float).to_numpy().max()
-    with plt.rc_context(letters):
+def draw_stresses(designs: pd.DataFrame, file: str) -> None:
+    """A map of the largest stress for each blade: thickness of the lining over clearance."""
+    blades = designs["blade"].unique()
+    with plt.rc_context({f"{name}size": 9 for name in ("font.", "axes.title", "axes.label", "xtick.label", "ytick.label")}):
         figure, panels = plt.subplots(len(blades), 1, figsize=(4.6, 1.75 * len(blades)), sharex=True)
-        for axes, (blade, part) in zip(panels, blades.items(), strict=True):
-            values = part.iloc[:, 2:].astype(float).to_numpy()
-            image = axes.imshow(values, origin="lower", aspect="auto", cmap="YlOrRd", vmin=0.0, vmax=largest)
-            for (row, column), value in np.ndenumerate(values):
-                colour = "white" if value > 0.66 * largest else "black"
-                axes.text(column, row, f"{value:.0f}", ha="center", va="center", color=colour)
-            axes.set_yticks(range(len(part)), part["lining"])
+        for axes, blade in zip(panels, blades, strict=True):
+            part = designs[designs["blade"] == blade]
+            table = part.pivot(index=THICKNESS, columns=CLEARANCE, values="largest_stress_over_yield")
+            image = axes.imshow(table, origin="lower", aspect="auto", cmap="RdBu_r", vmin=0.0, vmax=2.0)
+            for (row, column), value in np.ndenumerate(table.to_numpy()):
+                colour = "white" if abs(value - 1.0) > 0.6 else "black"
+                axes.text(column, row, f"{value:.2f}", ha="center", va="center", color=colour)
+            axes.set_yticks(range(len(table.index)), [f"{1e3 * thickness:g}" for thickness in table.index])
+            axes.set_xticks(range(len(table.columns)), [f"{1e3 * clearance:.2f}" for clearance in table.columns])
             axes.set_title(f"blade {blade}", loc="left")
             axes.grid(visible=False)
-        panels[-1].set_xticks(range(table.shape[1] - 2), [name.removesuffix(" mm") for name in table.columns[2:]])
         panels[-1].set_xlabel("clearance (mm)")
         figure.supylabel("thickness of the lining (mm)")
-        figure.colorbar(image, ax=panels, label="speeds above yield (rad/s)")
+        figure.colorbar(image, ax=panels, label="largest stress over yield", extend="max")
         style.save(figure, file)
 
 

@@ -13,12 +13,7 @@ from r37core.time_integration.status import RunStatus
 from .pages import write_table
 
 SINGLE = "single"
-KINDS = {
-    "equal": "36 equal blades",
-    "mistuned_0p2": "0.2% of mistuning",
-    "mistuned_1": "1% of mistuning",
-    "mistuned_1_other": "1%, another draw",
-}
+KINDS = {"equal": "36 equal blades", "mistuned_1": "1% of mistuning", "mistuned_1_other": "1%, another draw"}
 """Rotors of validation/decisions.yaml."""
 
 

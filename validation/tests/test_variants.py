@@ -1,8 +1,8 @@
-"""Tables of rotors, tolerances, searches and lengths of runs, from made-up results."""
+"""Tables of rotors, tolerances and lengths of runs, from made-up results."""
 
 import numpy as np
 import xarray as xr
-from evidence import better_blade, lasting, rotor, tolerances
+from evidence import lasting, rotor, tolerances
 from evidence.pages import read_table
 from evidence.plan import Named
 
@@ -57,22 +57,3 @@ def test_a_coefficient_whose_interval_holds_zero_is_a_dash():
     known = xr.Dataset({"rank_coefficient": 0.7, "rank_coefficient_low": 0.57, "rank_coefficient_high": 0.82})
     assert tolerances.coefficient(known) == "0.70 (0.57 to 0.82)"
     assert tolerances.coefficient(known.assign(rank_coefficient_low=-0.1)) == tolerances.UNKNOWN
-
-
-def test_a_search_is_its_best_design_next_to_the_start(tmp_path):
-    """Two designs, of which the first keeps all constraints."""
-    names, constraints = ["start", "d0000", "d0001"], ["bare", "static", "mass", "first_bending"]
-    content = {
-        "order": ("design", [0, 1, 0]),
-        "feasible": ("design", [1, 1, 0]),
-        "objective_value": (("design", "objective"), [[11.0], [5.0], [2.0]]),
-        "constraint_value": (
-            ("design", "constraint"),
-            [[6.0, 1.0, 2.0, 800.0], [4.0, 1.1, 2.05, 820.0], [9.0, 1.0, 3.0, 850.0]],
-        ),
-    }
-    xr.Dataset(content, {"design": names, "objective": ["lined"], "constraint": constraints}).to_netcdf(tmp_path / "search.nc")
-    better_blade.best(Named(search=str(tmp_path / "search.nc")), Named(table=tmp_path / "table.csv"), Named())
-    _, start, best = read_table(tmp_path / "table.csv")
-    assert start == ["start", "11", "6", "100.0", "100.0", "100.0"]
-    assert best == ["best of 1 of 2 designs", "5", "4", "110.0", "102.5", "102.5"]
