@@ -18,13 +18,9 @@ KINDS = {"equal": "36 equal blades", "mistuned_1": "1% of mistuning", "mistuned_
 
 
 def kinds(input: Any, output: Any, params: Any) -> None:
-    """Length above yield of single blades and rotors. Input: file of each blade and scene. Params: scenes. Output: table."""
-    rows = []
-    for blade, scenes in params.scenes.items():
-        for scene in scenes:
-            file, words = input[f"{blade}_{scene}"], KINDS.get(scene, "a single blade")
-            rows.append([blade, words, *(_single(file) if scene == SINGLE else _rotor(file))])
-    write_table(["blade", "rotor", "above yield (rad/s)", "largest stress / yield", "most blades at once"], rows, output.table)
+    """Speeds above yield of a single blade and of rotors of it. Inputs: files by scene. Output: table."""
+    rows = [["a single blade", *_single(input[SINGLE])], *([words, *_rotor(input[kind])] for kind, words in KINDS.items())]
+    write_table(["rotor", "above yield (rad/s)", "largest stress / yield", "most blades at once"], rows, output.table)
 
 
 def _single(file: str) -> list[str]:

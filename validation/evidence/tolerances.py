@@ -12,10 +12,12 @@ from r37core.results.table_file import read_table
 from .pages import write_table
 
 COLUMNS = {
-    "peak (rad/s)": "peak_speed_rad_s",
-    "above yield in most revolutions (rad/s)": "length_most_revolutions_rad_s",
-    "ever above yield (rad/s)": "length_ever_rad_s",
+    "peak (rad/s)": ("peak_speed_rad_s", 1.0, 0),
+    "above yield in most revolutions (rad/s)": ("length_most_revolutions_rad_s", 1.0, 0),
+    "largest stress (GPa)": ("largest_stress_pa", 1e-9, 1),
 }
+"""Column of the table, and that of tolerances.csv with its factor and digits."""
+
 UNKNOWN = "-"
 
 
@@ -23,15 +25,13 @@ def ranges(input: Any, output: Any, params: Any) -> None:
     """Nominal value and range of an interaction of each blade. Input: table. Params: mode, order. Output: table."""
     table = read_table(input.table)
     chosen = table[(table["mode"] == params.mode) & (table["engine_order"] == params.order)]
-    rows = [[row["blade"], *(ranged(row, column) for column in COLUMNS.values())] for _, row in chosen.iterrows()]
+    rows = [[row["blade"], *(ranged(row, *column) for column in COLUMNS.values())] for _, row in chosen.iterrows()]
     write_table(["blade", *COLUMNS], rows, output.table)
 
 
-def ranged(row: pd.Series, name: str) -> str:
-    """Nominal value and, in brackets, both ends of its range, with as many digits as the range bears."""
-    low, high = (row[f"{name}_{end}"] for end in ("low", "high"))
-    nominal, low_text, high_text = (rounded_to(value, high - low) for value in (row[name], low, high))
-    return f"{nominal} ({low_text} to {high_text})"
+def ranged(row: pd.Series, name: str, factor: float, digits: int) -> str:
+    """Nominal value times a factor and, in brackets, both ends of its range."""
+    return "{} ({} to {})".format(*(f"{factor * row[f'{name}{end}']:.{digits}f}" for end in ("", "_low", "_high")))
 
 
 def numbers(input: Any, output: Any, params: Any) -> None:

@@ -24,7 +24,7 @@ RUBBING = Run(
     keys={
         **DECIDING,
         "scenes_file": "validation/decisions.yaml",
-        "scenes": ["Rubbing"],
+        "scenes": ["Rubbing_0p0004", "Rubbing_0p00075"],
         "blades": ["Ref"],
         "fidelity": "draft",
         "speeds": [{"start": 1680, "stop": 1760, "step": 10}],

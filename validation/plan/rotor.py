@@ -5,19 +5,15 @@ from evidence.rotor import KINDS, SINGLE
 
 from plan.runs import DECIDING
 
-# a second shape with the usual mistuning alone
-SCENES = {"Ref": [SINGLE, *KINDS], "CS50": [SINGLE, "mistuned_1"]}
-
 ROTORS = Run(
     "rotors",
     keys={
         **DECIDING,
         "scenes_file": "validation/decisions.yaml",
         "scenes": [SINGLE, *KINDS],
-        "blades": list(SCENES),
+        "blades": ["Ref"],
         "fidelity": "draft",
         "speeds": [{"start": 1668, "stop": 1778, "step": 10}],
-        "speeds_for": [{"blades": ["CS50"], "speeds": [{"start": 1540, "stop": 1650, "step": 10}]}],
     },
 )
 
@@ -26,11 +22,9 @@ EVIDENCE = [
         "evidence.rotor.kinds",
         {"table": table("rotor_kinds")},
         {
-            f"{blade}_{scene}": f"{ROTORS.folder}/{blade}/{scene}/{'response' if scene == SINGLE else 'rotor'}.nc"
-            for blade, scenes in SCENES.items()
-            for scene in scenes
+            SINGLE: f"{ROTORS.folder}/Ref/{SINGLE}/response.nc",
+            **{kind: f"{ROTORS.folder}/Ref/{kind}/rotor.nc" for kind in KINDS},
         },
-        {"scenes": SCENES},
     ),
     Item(
         "evidence.pictures.of_run",
