@@ -15,7 +15,7 @@ from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.material import Material
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.danger import ratio_to_yield
-from r37core.results.measures import peak_speed
+from r37core.results.measures import peak_of
 from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
 from r37core.rom.contact_model import read_contact_model
@@ -46,7 +46,7 @@ def tip(input: Any, output: Any, params: Any) -> None:
 
 
 def effect(input: Any, output: Any, params: Any) -> None:
-    """Peak, stress and length above yield with the clearance at speed and at rest. Inputs: fixed, growing. Params: blades."""
+    """Speed of the largest motion, stress and length above yield with the clearance at speed and at rest. Inputs: fixed, growing. Params: blades."""
     rows = []
     for blade, *files in zip(params.blades, input.fixed, input.growing, strict=True):
         pair = [read_judged(file) for file in files]
@@ -54,12 +54,12 @@ def effect(input: Any, output: Any, params: Any) -> None:
         rows.append(
             [
                 blade,
-                " → ".join(f"{peak_speed(run):.0f}" for run in pair),
+                " → ".join(f"{float(peak_of(run)['speed']):.0f}" for run in pair),
                 " → ".join(f"{float(ratio_to_yield(run).max()):.2f}" for run in pair),
                 " → ".join(f"{length:.0f}" for length in lengths),
             ]
         )
-    write_table(["blade", "peak (rad/s)", "largest stress / yield", "above yield (rad/s)"], rows, output.table)
+    write_table(["blade", "largest motion at (rad/s)", "largest stress / yield", "above yield (rad/s)"], rows, output.table)
 
 
 def _ends(nearer: np.ndarray) -> str:

@@ -54,8 +54,10 @@ def verdicts(input: Any, output: Any, params: Any) -> None:
     head = ["blade", "scene", "verdict", "shortest (rad/s)", "longest (rad/s)", "runs besides the sweep's", "note"]
     columns = ["blade", "scene", "verdict", "value_lowest", "value_highest", "further_runs", "note"]
     verdict = read_table(input.verdict)
-    lengths = {name: verdict[name].map("{:.0f}".format) for name in ("value_lowest", "value_highest")}
-    write_table(head, verdict.assign(**lengths)[columns].fillna("").astype(str).values.tolist(), output.table)
+    texts = {name: verdict[name].map("{:.0f}".format) for name in ("value_lowest", "value_highest")}
+    # the first reason decides
+    texts["note"] = verdict["note"].str.split(";").str[0]
+    write_table(head, verdict.assign(**texts)[columns].fillna("").astype(str).values.tolist(), output.table)
 
 
 def fatigue(input: Any, output: Any, params: Any) -> None:

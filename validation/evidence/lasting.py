@@ -23,9 +23,13 @@ def lasting(input: Any, output: Any, params: Any) -> None:
         length = robustness(response, chance_scatter=False)["length_most_revolutions_rad_s"]
         counts = [np.count_nonzero(response["motion_at_end"] == state) for state in STATES]
         rows.append([revolutions, f"{length:.0f}", *map(str, counts)])
-        axes.plot(response["speed"], 1e3 * motion(response), f"{marker}-", markersize=3, label=f"{revolutions} revolutions")
-    write_table(["revolutions", "above yield (rad/s)", *(f"{state.text}: runs" for state in STATES)], rows, output.table)
+        axes.plot(response["speed"], 1e3 * motion(response), f"{marker}-", markersize=3, label=revolutions)
+    write_table(
+        ["revolutions", "above yield (rad/s)", *(f"{state.text.replace('_', ' ')}: runs" for state in STATES)],
+        rows,
+        output.table,
+    )
     axes.set_xlabel("speed (rad/s)")
     axes.set_ylabel("rms of the leading edge (mm)")
-    axes.legend()
+    axes.legend(title="revolutions")
     save(figure, output.picture)

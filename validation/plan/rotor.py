@@ -14,6 +14,14 @@ ROTORS = Run(
         "blades": ["Ref"],
         "fidelity": "draft",
         "speeds": [{"start": 1668, "stop": 1778, "step": 10}],
+        # slower blades have their interactions at lower speeds
+        "speeds_for": [
+            {
+                "blades": ["Ref"],
+                "scenes": ["mistuned_1", "mistuned_1_other"],
+                "speeds": [{"start": 1618, "stop": 1778, "step": 10}],
+            }
+        ],
     },
 )
 
