@@ -46,7 +46,7 @@ def tip(input: Any, output: Any, params: Any) -> None:
 
 
 def effect(input: Any, output: Any, params: Any) -> None:
-    """Speed of the largest motion, stress and length above yield with the clearance at speed and at rest. Inputs: fixed, growing. Params: blades."""
+    """Largest motion and stress, and length above yield, with the clearance at speed and at rest. Inputs: fixed, growing."""
     rows = []
     for blade, *files in zip(params.blades, input.fixed, input.growing, strict=True):
         pair = [read_judged(file) for file in files]

@@ -1,4 +1,4 @@
-"""What an engineer decides: clearance and lining, and fatigue of a blade that stays below yield."""
+"""What an engineer decides: clearance and lining; fatigue."""
 
 from typing import Any
 

@@ -24,11 +24,8 @@ def lasting(input: Any, output: Any, params: Any) -> None:
         counts = [np.count_nonzero(response["motion_at_end"] == state) for state in STATES]
         rows.append([revolutions, f"{length:.0f}", *map(str, counts)])
         axes.plot(response["speed"], 1e3 * motion(response), f"{marker}-", markersize=3, label=revolutions)
-    write_table(
-        ["revolutions", "above yield (rad/s)", *(f"{state.text.replace('_', ' ')}: runs" for state in STATES)],
-        rows,
-        output.table,
-    )
+    states = [state.text.replace("_", " ") for state in STATES]
+    write_table(["revolutions", "above yield (rad/s)", *(f"{state}: runs" for state in states)], rows, output.table)
     axes.set_xlabel("speed (rad/s)")
     axes.set_ylabel("rms of the leading edge (mm)")
     axes.legend(title="revolutions")

@@ -1,4 +1,4 @@
-"""What an engineer decides: clearance and lining (docs/clearance_and_lining.md), fatigue below yield (docs/requirements.md)."""
+"""What an engineer decides: clearance and lining (docs/clearance_and_lining.md), fatigue (docs/requirements.md)."""
 
 from evidence.plan import Item, Run, table
 
@@ -59,7 +59,7 @@ EVIDENCE = [
     ),
     Item(
         "evidence.decisions.fatigue",
-        {"table": table("fatigue_below_yield")},
+        {"table": table("goodman")},
         {"stress": f"{FATIGUE.folder}/stress.nc", "ranking": f"{FATIGUE.folder}/ranking.csv"},
     ),
     Item(
