@@ -22,11 +22,13 @@ from r37core.results.measures import motion
 from r37core.results.regions import read_judged
 
 from .answer import NEUTRAL, ON_ANY_PAGE
-from .gallery_shapes import add_mode
-from .published_figures import SCENES
+from .gallery import SCENES
 
 _NAMED = 2e-3
 """Motion (m) from which on a peak is named."""
+
+_SWING = 0.02
+"""Largest displacement that the mode is drawn with (m)."""
 
 _AXES = {"radial": (1.0, 0.0, 0.0), "downstream": (0.0, 0.0, 1.0)}
 
@@ -45,11 +47,17 @@ def draw(input: Any, output: Any, params: Any) -> None:
 
 
 def _first_bending(file: Path) -> np.ndarray:
-    """Picture of the mode with the axes of the blade, on nothing."""
+    """Picture of the mode, coloured by displacement, with edges at rest and axes, on nothing."""
     with readable(file):
         grid = pyvista.read(file)
     plotter = new_plotter(1, (1000, 640))
-    add_mode(plotter, grid, "1B")
+    shape = np.asarray(grid.point_data["mode 1B"])
+    size = np.linalg.norm(shape, axis=1)
+    moved = grid.copy()
+    moved.points = grid.points + _SWING / size.max() * shape
+    moved.point_data["size"] = size / size.max()
+    plotter.add_mesh(_surface(moved), scalars="size", cmap="viridis", smooth_shading=True, show_scalar_bar=False)
+    plotter.add_mesh(_surface(grid).extract_feature_edges(), color="black", line_width=1.5)
     low, high = np.reshape(grid.bounds, (3, 2)).T
     corner, length = (
         np.array([low[0] + 0.5 * (high[0] - low[0]), 0.5 * (low[1] + high[1]), high[2] + 0.02]),
@@ -68,14 +76,18 @@ def _first_bending(file: Path) -> np.ndarray:
     return np.dstack([pixels, np.where(drawn, 255, 0).astype(np.uint8)])[top:bottom, left:right]
 
 
+def _surface(grid: pyvista.DataSet) -> pyvista.PolyData:
+    return grid.extract_surface(nonlinear_subdivision=0, algorithm="dataset_surface")
+
+
 def _draw_response(axes: Axes, runs: dict[str, xr.Dataset], campbell: xr.Dataset) -> None:
     """Rms of the leading edge over speed in both scenes, peaks with their names, and the published peaks as triangles."""
     for kind, (label, color) in SCENES.items():
         axes.plot(runs[kind]["speed"], 1e3 * motion(runs[kind]), color=color, label=label)
     top = 1e3 * float(motion(runs["lined"]).max())
-    found = find_interactions(runs["lined"], campbell, InteractionChoice())
-    names = titles(found)
-    for peak in found:
+    peaks = find_interactions(runs["lined"], campbell, InteractionChoice())
+    names = titles(peaks)
+    for peak in peaks:
         if peak["peak_motion_m"] > _NAMED:
             speed = peak["peak_speed_rad_s"]
             place = (speed, 1e3 * peak["peak_motion_m"])

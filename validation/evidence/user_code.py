@@ -14,9 +14,9 @@ import r37
 
 
 def picture(input: Any, output: Any, params: Any) -> None:
-    """Figure of a program, with matplotlib's own style. Input: the program."""
+    """Figure of a program, with matplotlib's own style. Params: program."""
     with plt.rc_context():
-        runpy.run_path(input[0])["figure"].savefig(output[0], dpi=110)
+        runpy.run_path(params.program)["figure"].savefig(output.picture, dpi=110)
         plt.close("all")
 
 
