@@ -4,17 +4,16 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
+from conftest import CHECKOUT
 from evidence import published_windows as windows
 from evidence.checks import Check, claim, score
+from evidence.configuration import settings_of
 from evidence.gallery import draw_reference, draw_stress
 from evidence.published_checks import Runs, survey_checks, torsion_speed, window_checks
 from evidence.published_tables import GROUPS, SUMMED, checks_table, choices_table, counts, differences
 from evidence.published_windows import BARE
 from plan.published import PAPER, PUBLISHED
 from published import INTERACTIONS
-
-from r37core.config import command_line_document
-from r37core.product.extensions import read_settings
 
 YIELD = 1.38e9
 UNITS = ("rms_normal", "rms_radial", "rms_tangential", "max_von_mises_last_revolution", "max_wear", "casing_hits", "status")
@@ -161,8 +160,8 @@ def test_table_of_choices_marks_what_is_missing():
     assert good[head.index("first yield at 1717")] == "40"
 
 
-def test_runs_have_the_published_speeds(root):
-    paper, standard = (read_settings(root, command_line_document(run.keys)).speed_plans for run in (PAPER, PUBLISHED))
+def test_runs_have_the_published_speeds():
+    paper, standard = (settings_of(CHECKOUT, **run.keys).speed_plans for run in (PAPER, PUBLISHED))
     for row in INTERACTIONS:
         assert set(windows.paper_window(row)) <= set(paper[row.blade, "abradable"].certain)
         assert set(windows.narrow(row)) < set(windows.window(row)) <= set(standard[row.blade, "abradable"].certain)
@@ -173,9 +172,11 @@ def test_runs_have_the_published_speeds(root):
     assert windows.grid(10.0, -3.0, 4.0, 2.0) == [8.0, 10.0, 12.0, 14.0]
 
 
-def test_each_choice_varies_one_thing(root, settings):
+def test_each_choice_varies_one_thing():
     """What a scene of validation/published.yaml does not vary is shipped."""
-    varied = read_settings(root, command_line_document({"scenes_file": "validation/published.yaml", "scenes": "all"}))
+    settings, varied = (
+        settings_of(CHECKOUT, **keys) for keys in ({}, {"scenes_file": "validation/published.yaml", "scenes": "all"})
+    )
     lined = {"abradable", *(f"abradable_{name}" for name in windows.CHOICES)}
     assert set(varied.scenes) == lined | {"direct", *(f"direct_{name}" for name in windows.BARE_CHOICES)}
     for name, chosen in varied.scenes.items():
