@@ -53,7 +53,6 @@ EVIDENCE = [
             "modes": f"{PUBLISHED.folder}/exports/{REFERENCE}/modes",
             "lined": f"{FOLDER}/abradable/response.nc",
             "direct": f"{FOLDER}/direct/response.nc",
-            "campbell": f"{FOLDER}/campbell.nc",
         },
     ),
     *(
