@@ -39,9 +39,9 @@ def _first_bending(file: Path) -> np.ndarray:
     with readable(file):
         grid = pyvista.read(file)
     shape = np.asarray(grid.point_data["mode 1B"])
-    size = np.linalg.norm(shape, axis=1) / np.linalg.norm(shape, axis=1).max()
+    size = np.linalg.norm(shape, axis=1)
     moved = grid.copy()
-    moved.points = grid.points + _SWING * shape / np.linalg.norm(shape, axis=1).max()
+    moved.points = grid.points + _SWING / size.max() * shape
     moved.point_data["size"] = size
     plotter = new_plotter(1, (1000, 640))
     surface, edges = (each.extract_surface(nonlinear_subdivision=0, algorithm="dataset_surface") for each in (moved, grid))
