@@ -46,15 +46,6 @@ EVIDENCE = [
             "campbell": f"{FOLDER}/campbell.nc",
         },
     ),
-    Item(
-        "evidence.overview.draw",
-        {"picture": "docs/overview.png"},
-        {
-            "modes": f"{PUBLISHED.folder}/exports/{REFERENCE}/modes",
-            "lined": f"{FOLDER}/abradable/response.nc",
-            "direct": f"{FOLDER}/direct/response.nc",
-        },
-    ),
     *(
         Item(
             "evidence.user_code.picture",
