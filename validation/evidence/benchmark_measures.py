@@ -29,10 +29,10 @@ def median_over_speed(response: xr.Dataset, name: str) -> float:
     return float(values[order][np.searchsorted(summed, 0.5 * summed[-1])])
 
 
-def strongest_lobes(response: xr.Dataset) -> np.ndarray:
-    """Number of lobes (3 to 12) of the largest harmonic of the wear, shape (speeds,)."""
-    harmonics = response["wear_harmonic"].sel(lobes=slice(3, 12)).fillna(0.0)
-    return harmonics["lobes"].values[harmonics.argmax("lobes").values].astype(float)
+def strongest_lobes(peak: xr.Dataset) -> float:
+    """Number of lobes (3 to 12) of the largest harmonic of the wear at one speed."""
+    harmonics = peak["wear_harmonic"].sel(lobes=slice(3, 12)).fillna(0.0)
+    return float(harmonics["lobes"][int(harmonics.argmax("lobes"))])
 
 
 def first_contact(response: xr.Dataset) -> np.ndarray:

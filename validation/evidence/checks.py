@@ -10,11 +10,11 @@ import numpy as np
 class Check:
     """One published number next to ours, or a yes or no; `within`: relative error up to which it counts as agreeing.
 
-    `published` None: the number is ours alone, nothing is scored; `detail`: the number behind a yes or no.
+    `detail`: the number behind a yes or no.
     """
 
     name: str
-    published: float | str | None
+    published: float | str
     ours: float | str
     unit: str = ""
     within: float = 0.01
@@ -22,9 +22,7 @@ class Check:
 
     @property
     def error(self) -> float:
-        """Relative error; infinite where a yes or no differs or there is no number of ours; 0 without a published one."""
-        if self.published is None:
-            return 0.0
+        """Relative error; infinite where a yes or no differs or there is no number of ours."""
         if isinstance(self.published, str) or isinstance(self.ours, str):
             return 0.0 if self.published == self.ours else np.inf
         return abs(self.ours / self.published - 1.0) if np.isfinite(self.ours) else np.inf
@@ -36,13 +34,13 @@ class Check:
 
     @property
     def verdict(self) -> str:
-        """`yes` or `no`: whether it agrees; nothing where nothing is published."""
-        return "" if self.published is None else "yes" if self.agrees else "no"
+        """Whether it agrees, as text."""
+        return "yes" if self.agrees else "no"
 
     @property
     def percent(self) -> str:
-        """The error of a number as text; nothing for a yes or no, or without a published number."""
-        if self.published is None or isinstance(self.published, str):
+        """The error of a number as text; nothing for a yes or no."""
+        if isinstance(self.published, str):
             return ""
         return "none" if np.isinf(self.error) else f"{100 * self.error:.2g}%"
 
@@ -57,14 +55,14 @@ def claim(name: str, truth: bool, detail: str = "") -> Check:
     return Check(name, "yes", "yes" if truth else "no", detail=detail)
 
 
-def number(value: float | str | None) -> str:
-    """A number in five digits, `none` for NaN, nothing for None, text as it is."""
-    if value is None or isinstance(value, str):
-        return value or ""
+def number(value: float | str) -> str:
+    """A number in five digits, `none` for NaN, text as it is."""
+    if isinstance(value, str):
+        return value
     return f"{value:.5g}" if np.isfinite(value) else "none"
 
 
 def score(checks: Iterable[Check]) -> str:
-    """Number of published numbers that agree, and of all."""
-    published = [check for check in checks if check.published is not None]
-    return f"{sum(check.agrees for check in published)} of {len(published)}"
+    """How many agree, of all."""
+    verdicts = [check.agrees for check in checks]
+    return f"{sum(verdicts)} of {len(verdicts)}"

@@ -51,7 +51,7 @@ def markdown(rows: Iterable[Sequence[str]]) -> str:
 
 
 class Pages:
-    """The pages of a project: README.md and docs/*.md, and the tables that stand in each."""
+    """The pages of a project: README.md, docs/*.md and paper/paper.md, and the tables that stand in each."""
 
     def __init__(self, root: Path):
         self._root = root
@@ -62,7 +62,10 @@ class Pages:
         return [name for page in self._pages() for name in [str(page.relative_to(self._root))] if self.tables(name)]
 
     def _pages(self) -> list[Path]:
-        return [self._root / "README.md", *sorted((self._root / "docs").glob("*.md"))]
+        return [
+            self._root / "README.md",
+            *(page for name in ("docs", "paper") for page in sorted((self._root / name).glob("*.md"))),
+        ]
 
     @property
     def all_tables(self) -> list[str]:

@@ -14,15 +14,15 @@ import r37
 
 
 def picture(input: Any, output: Any, params: Any) -> None:
-    """Figure of a program, with matplotlib's own style. Input: the program."""
+    """Figure of a program, with matplotlib's own style. Params: program."""
     with plt.rc_context():
-        runpy.run_path(input[0])["figure"].savefig(output[0], dpi=110)
+        runpy.run_path(params.program)["figure"].savefig(output.picture, dpi=110)
         plt.close("all")
 
 
 def worked_example(input: Any, output: Any, params: Any) -> None:
-    """Figures of the example of docs/your_blade.md, drawn, meshed and run as that page says. Input: page."""
-    text = Path(input.page).read_text(encoding="utf-8")
+    """Figures of the example of docs/your_blade.md, drawn, meshed and run as that page says. Params: page."""
+    text = Path(params.page).read_text(encoding="utf-8")
     program, entry = (re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)[0] for language in ("python", "yaml"))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -32,6 +32,5 @@ def worked_example(input: Any, output: Any, params: Any) -> None:
             runpy.run_path("draw.py")
         blade = r37.blade("Fan", file=folder / "blades.yaml")
         r37.run(blade, "material_abradable", cores=2, folder=folder / "run", targets="all_blades")
-        figures = {name: f"{name}_Fan" for name in ("campbell", "response")}
-        for name, figure in (figures | {"contact_force": "contact_force_Fan__material_abradable"}).items():
-            shutil.copy(folder / f"run/results/figures/{figure}.png", output[name])
+        for figure, file in output.items():
+            shutil.copy(folder / f"run/results/figures/{figure}_Fan.png", file)
