@@ -29,8 +29,6 @@ ENGINE = f"{VALIDATION}/engine_numbers.json"
 MADE = "results/evidence"
 """Folder of what is not committed."""
 
-MAIN_JOB = tuple(f"config/{name}.yaml" for name in ("blades", "config", "fidelity", "scenes"))
-
 Files = Mapping[str, str | Sequence[str]]
 
 
@@ -157,14 +155,11 @@ class Plan:
         """What the hash of an item or a run is of."""
         if isinstance(part, Run):
             # the files that it is asked for do not count: another item may ask for more
-            yield repr(part.content)
-            files = [*MAIN_JOB, *(str(value) for key, value in sorted(part.keys.items()) if key.endswith("_file"))]
-            # as content: comments and layout do not count
-            yield from (repr(load_yaml(self.root / file)) for file in files)
+            yield repr([part.content, *self._entries_of(part)])
             yield self._engine
             return
         # the numbers of the engine are made again when any of its code has changed, all else when these move
-        yield self._code("step", part.step) if ENGINE not in part.files else self._all_code(part.step)
+        yield self._all_code(part.step) if ENGINE in part.files else self._code(part.step)
         yield repr((part.step, part.outputs, part.inputs, part.params))
         yield from (hashlib.sha256((self.root / source).read_bytes()).hexdigest() for source in part.sources)
         if ENGINE not in part.files:
@@ -173,9 +168,30 @@ class Plan:
         yield from (self.hash_of(item.name) for item in items)
         yield from (self.hash_of(f"product_{run.name}") for run in runs)
 
+    def _entries_of(self, run: Run) -> Iterator[Any]:
+        """What a run takes from files of the configuration, as content: comments, layout and other entries do not count."""
+        shipped = load_yaml(self.root / "config/config.yaml")
+        yield shipped
+        for kind in ("blades", "scenes", "fidelity"):
+            entries = load_yaml(self.root / str(run.content.get(f"{kind}_file", f"config/{kind}.yaml")))
+            yield used(entries, run.content.get(kind, shipped.get(kind, "all")))
+
     @cached_property
     def _engine(self) -> str:
         return (self.root / ENGINE).read_text(encoding="utf-8")
+
+
+def used(entries: Mapping[str, Any], names: str | Sequence[str]) -> list[tuple[str, Any]]:
+    """Entries of a file with these names, and those that they are based on; all where a name is not among them."""
+    waiting = as_list(names)
+    if not set(waiting) <= entries.keys():
+        return sorted(entries.items())
+    chosen: dict[str, Any] = {}
+    while waiting:
+        name = waiting.pop()
+        chosen[name] = entries[name]
+        waiting += [base for base in [chosen[name].get("base")] if base in entries.keys() - chosen.keys()]
+    return sorted(chosen.items())
 
 
 class Named(dict[str, Any]):
