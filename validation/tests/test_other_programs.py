@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 from evidence.equations_of_motion import against_spring, blade_of, with_wear, without_yield
-from evidence.harmonic_balance import by_harmonic_balance
 from evidence.massless_boundary import boundary_rows, massless_boundary, run_nlstep
+from harmonic_balance import by_harmonic_balance
 from integration_cases import random_model, with_static_modes
 from reference_engine import ReferenceSimulation
 

@@ -1,0 +1,31 @@
+"""The lining by its material (docs/lining.md)."""
+
+from evidence.blade_runs import DECIDING_SOURCES
+from evidence.plan import MADE, Item, table
+
+from plan.runs import BLADES, DECIDING
+
+LENGTHS = {blade: f"{MADE}/lining_contact_length_{blade}.csv" for blade in BLADES}
+
+EVIDENCE = [
+    Item(
+        "evidence.lining.limits",
+        {"table": table("lining_limits")},
+        params={"configuration": DECIDING, "blades": ("Ref", "L100", "CS50")},
+        sources=DECIDING_SOURCES,
+    ),
+    *(
+        Item(
+            "evidence.lining.contact_lengths_of_blade",
+            {"lengths": file},
+            params={"configuration": DECIDING, "blade": blade},
+            sources=DECIDING_SOURCES,
+        )
+        for blade, file in LENGTHS.items()
+    ),
+    Item(
+        "evidence.lining.contact_lengths",
+        {"table": table("lining_contact_length"), "picture": "docs/lining_contact_length.png"},
+        {"files": list(LENGTHS.values())},
+    ),
+]
