@@ -11,7 +11,7 @@ EVIDENCE = [
     Item(
         "evidence.lining.limits",
         {"table": table("lining_limits")},
-        params={"configuration": DECIDING, "blades": ("Ref", "L100", "CS50")},
+        params={"configuration": DECIDING, "blades": ("Ref", "CS50")},
         sources=DECIDING_SOURCES,
     ),
     *(
