@@ -86,7 +86,7 @@ def _bars(axes: Axes, rest: pd.Series, worst: pd.Series) -> None:
 def checks(input: Any, output: Any, params: Any) -> None:
     """What each change does to the lengths above yield (rad/s), by contact and blade. Output: table.
 
-    Inputs: ranking and motions of all speeds; base, bare and fine, responses on the bare casing; lined and lined_fine, motions.
+    Inputs: ranking and motions of all speeds; base, bare and draft, responses on the bare casing; lined and lined_draft, motions.
     """
     rows: dict[tuple[str, str], dict[str, float]] = {}
     ranking = read_ranking(input.ranking).set_index(["scene", "blade"])
@@ -96,7 +96,7 @@ def checks(input: Any, output: Any, params: Any) -> None:
         rows[words, "all speeds, from rest"] = dict(ranking.loc[scene, LENGTH])
         for name, part in REGIONS.items():
             rows[words, f"{name}, from rest"] = dict(ranking.loc[scene, LENGTH.replace("_rad", f"{part}_rad")])
-    responses = {"every 50 rad/s, from rest": input.base, "fine mesh, half the step": input.fine}
+    responses = {"every 50 rad/s, from rest": input.base, "level draft": input.draft}
     for file in input.bare:
         responses.setdefault(TRIED[_scene_of(file).split("_")[0]], []).append(file)
     for name, files in responses.items():

@@ -34,7 +34,7 @@ def tried(name, lined, bare, **changes):
 
 
 CASES = tried("cases", LINED, BARE)
-FINE = tried("cases_fine", *[[scene] for scene in SCENES], fidelity="fine")
+COARSER = tried("cases_draft", *[[scene] for scene in SCENES], fidelity="draft")
 LINEAR = Run(
     "linear",
     keys={
@@ -60,10 +60,10 @@ EVIDENCE = [
             "ranking": f"{ALL_SPEEDS.folder}/ranking.csv",
             "base": ALL_SPEEDS.responses(BLADES, "direct"),
             "bare": [file for scene in BARE for file in CASES.responses(BLADES, scene)],
-            "fine": FINE.responses(BLADES, "direct"),
+            "draft": COARSER.responses(BLADES, "direct"),
             **MOTIONS,
             "lined": f"{CASES.folder}/second_motions.nc",
-            "lined_fine": f"{FINE.folder}/second_motions.nc",
+            "lined_draft": f"{COARSER.folder}/second_motions.nc",
         },
     ),
     Item(
