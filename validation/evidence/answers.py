@@ -86,7 +86,7 @@ def _bars(axes: Axes, rest: pd.Series, worst: pd.Series) -> None:
 def checks(input: Any, output: Any, params: Any) -> None:
     """What each change does to the lengths above yield (rad/s), by contact and blade. Output: table.
 
-    Inputs: ranking and motions of all speeds; base, bare and draft, responses on the bare casing; lined and lined_draft, motions.
+    Inputs: ranking and motions of all speeds; responses base, bare and draft; lined and lined_draft, motions.
     """
     rows: dict[tuple[str, str], dict[str, float]] = {}
     ranking = read_ranking(input.ranking).set_index(["scene", "blade"])
@@ -103,10 +103,7 @@ def checks(input: Any, output: Any, params: Any) -> None:
         rows[SCENES[BARE], name] = {_blade_of(file): _length_at(read_judged(file), coarse) for file in files}
     cases = read_dataset(input.lined)
     speeds = cases["speed"].values
-    motions = {
-        "1540 to 1780 rad/s every 10": (every, LINING),
-        "fine mesh, half the step": (read_dataset(input.lined_fine), LINING),
-    }
+    motions = {"1540 to 1780 rad/s every 10": (every, LINING), "level draft": (read_dataset(input.lined_draft), LINING)}
     motions |= {TRIED[str(scene).split("_")[0]]: (cases, str(scene)) for scene in cases["scene"].values}
     for name, (dataset, scene) in motions.items():
         rows[SCENES[LINING], name] = _worst_lengths(dataset, scene, speeds)
