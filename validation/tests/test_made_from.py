@@ -7,7 +7,7 @@ import pytest
 from evidence import plan as plans
 from evidence.made_from import RECORD, note, out_of_date
 from evidence.pages import renewed
-from evidence.plan import ENGINE, Item, Plan, Run
+from evidence.plan import ENGINE, Item, Plan, Run, used
 
 from r37core.base.io import read_json
 
@@ -83,3 +83,11 @@ def test_a_page_with_other_numbers_and_a_table_that_nothing_makes_are_named(comm
     folder, plan = committed
     (folder / PAGE).write_text("<!-- table a -->\n<!-- end -->\n[b](../validation/tables/b.csv)\n")
     assert set(out_of_date(plan())) == {PAGE, "validation/tables/b.csv"}
+
+
+def test_a_run_uses_the_entries_that_it_names_and_their_bases():
+    entries = {"a": {"base": "b"}, "b": {}, "c": {}}
+    assert [name for name, _ in used(entries, ["a"])] == ["a", "b"]
+    assert used(entries, "c") == [("c", {})]
+    # those of a family have other names
+    assert used(entries, ["a", "c_0p1"]) == used(entries, "all") == sorted(entries.items())
