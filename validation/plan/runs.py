@@ -21,7 +21,7 @@ DECIDING = {
 
 CARRIED = {"from_rad_s": 750, "to_rad_s": 2000, "step_rad_s": 5, "dwell": {"range_speeds": 0}}
 
-# the one set of runs: from rest at all speeds and carried up and down at every second one, each as long
+# the one set of runs: from rest at all speeds, and carried up and down, each as long
 ALL_SPEEDS = Run(
-    "all_speeds", keys={**DECIDING, "speeds": [{"start": 750, "stop": 2000, "step": 2.5}], "second_motions": CARRIED}
+    "all_speeds", keys={**DECIDING, "speeds": [{"start": 750, "stop": 2000, "step": 5}], "second_motions": CARRIED}
 )
