@@ -2,9 +2,9 @@
 
 from evidence.plan import Item, Run, table
 
-from plan.runs import ALL_SPEEDS, DECIDING
+from plan.runs import DECIDING
 
-EVERY_SPEED = {"blades": ["Ref"], "speeds": ALL_SPEEDS.keys["speeds"], "estimate": {"every": 50}}
+EVERY_SPEED = {"blades": ["Ref"], "speeds": [{"start": 750, "stop": 2000, "step": 2.5}], "estimate": {"every": 50}}
 
 STANDARD = Run("estimate_standard", keys={**EVERY_SPEED, "fidelity": "standard"})
 TO_DECIDE = Run("estimate_to_decide", keys={**DECIDING, **EVERY_SPEED})
