@@ -1,4 +1,4 @@
-"""Makes paper.pdf of paper.md with pandoc and the first PDF engine that is there, for validation/rules/paper.smk."""
+"""Makes paper.pdf of paper.md with pandoc and the first PDF engine that is there: python paper/pdf.py."""
 
 import shutil
 import subprocess
@@ -8,8 +8,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import yaml
-
-from r37core.console.failures import reported
 
 FOLDER = Path(__file__).parent
 ENGINES = ("tectonic", "xelatex", "lualatex", "pdflatex", "weasyprint")
@@ -61,6 +59,5 @@ def make(text, output):
         raise MissingToolError(f"a PDF engine is missing: `pip install typst pypandoc_binary`, or one of {', '.join(ENGINES)}")
 
 
-if "snakemake" in globals():
-    with reported(snakemake.rule, snakemake.log[0]):
-        make(Path(snakemake.input.text).resolve(), Path(snakemake.output.pdf).resolve())
+if __name__ == "__main__":
+    make(FOLDER / "paper.md", FOLDER / "paper.pdf")

@@ -184,10 +184,10 @@ def _solved(blade, rate, times, method, tolerances):
     rest = np.zeros(2 * len(blade.frequencies))
     # at rest nothing tells the solver how soon the lobes come
     longest = 2e-3 * 2.0 * np.pi / blade.speed
-    found = solve_ivp(rate, (0.0, times[-1]), rest, method, times, max_step=longest, **tolerances)
-    if not found.success:
-        raise RuntimeError(found.message)
-    return found.y
+    solution = solve_ivp(rate, (0.0, times[-1]), rest, method, times, max_step=longest, **tolerances)
+    if not solution.success:
+        raise RuntimeError(solution.message)
+    return solution.y
 
 
 def _edge(blade, states):
@@ -290,13 +290,13 @@ def with_wear(blade, times, method="DOP853", **tolerances):
             bars.watch(time, *blade.penetration(time, state))
             passing, events = bars.passing(), bars.switches()
             end = min(sample, time + WATCH, passing.min())
-            found = solve_ivp(rate, (time, end), state, method, first_step=end - time, events=events, **tolerances)
-            time, state = found.t[-1], found.y[:, -1]
+            solution = solve_ivp(rate, (time, end), state, method, first_step=end - time, events=events, **tolerances)
+            time, state = solution.t[-1], solution.y[:, -1]
             depth, speed = blade.penetration(time, state)
             if np.any(depth[~bars.near] > 0.0):
                 raise RuntimeError(f"a node came from {NEAR:g} m away within {WATCH:g} s")
             bars.keep(depth)
-            for event, when in zip(events, found.t_events, strict=True):
+            for event, when in zip(events, solution.t_events, strict=True):
                 bars.yielding[event.node] ^= len(when) > 0
             for node in np.flatnonzero(passing == time):
                 bars.bar[node] -= 1

@@ -80,8 +80,8 @@ def test_mutants_are_of_modules_and_tests_that_are_there():
     assert [name for names in modules.values() for name in names.split() if not (CHECKOUT / "tests" / name).exists()] == []
 
 
-NOT_MADE_HERE = {"columns", "modelling_choices_v0_2", "other_programs_histories", "other_programs_rms"}
-"""Tables of the code (evidence.key_tables), of an older tag, and of a program that one has to bring (docs/validation.md)."""
+NOT_MADE_HERE = {"columns", "modelling_choices_v0_2"}
+"""Tables of the code (evidence.key_tables), and of an older tag (docs/validation.md)."""
 
 
 @pytest.mark.slow

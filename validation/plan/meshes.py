@@ -1,0 +1,11 @@
+"""Density of the mesh, and meshes of another program (docs/structure.md, docs/your_blade.md)."""
+
+from evidence.plan import Item, table
+
+# the numbers are those of the shipped configuration
+SOURCES = ["config/blades.yaml", "config/config.yaml", "config/fidelity.yaml", "config/scenes.yaml"]
+
+EVIDENCE = [
+    Item("evidence.meshes.density", {"table": table("mesh_density")}, sources=SOURCES),
+    Item("evidence.meshes.remeshed", {"table": table("remeshed")}, params={"blades": ["Ref"]}, sources=SOURCES),
+]
