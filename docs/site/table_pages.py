@@ -8,7 +8,7 @@ from pkgutil import resolve_name
 ROOT = Path(__file__).parent.parent.parent
 sys.path.append(str(ROOT / "validation"))
 
-from evidence import pages  # noqa: E402
+from evidence import pages, tables  # noqa: E402
 from evidence.plan import TABLES, Plan  # noqa: E402
 
 COMMAND = "snakemake -s validation/Snakefile --cores 2"
@@ -40,7 +40,7 @@ def uses(texts, name):
 
 def table_page(name, item, stamp, texts):
     """Page of a table."""
-    rows = pages.read_table(ROOT / TABLES / f"{name}.csv")
+    rows = tables.read_table(ROOT / TABLES / f"{name}.csv")
     # cells link pages from docs/
     table = pages.markdown(rows).replace("](", "](../")
     made = f"{{download}}`{name}.csv <../../{TABLES}/{name}.csv>` is made by `{item.step}`:"

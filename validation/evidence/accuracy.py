@@ -15,7 +15,7 @@ from r37core.figures.style import PAGE, plt, save
 
 from .blade_runs import Models, mesh_of, numbers_of_run, reduced_model, speeds_about_crossing, with_friction
 from .configuration import settings_of
-from .pages import write_table
+from .tables import write_table
 
 LEVELS = ("draft", "standard", "fine")
 REFERENCE, PERTURBED, STRONG, STRONG_PERTURBED = "reference", "friction + 0.1%", "friction 0.3", "friction 0.3 + 0.1%"

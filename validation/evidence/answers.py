@@ -20,8 +20,7 @@ from r37core.results.ranking import read_ranking
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
 
-from .answer import ON_ANY_PAGE
-from .pages import write_table
+from .tables import write_table
 
 LINING, BARE = "material_abradable", "direct"
 SCENES = {BARE: "bare casing", LINING: "abradable lining"}
@@ -48,6 +47,13 @@ MOTION = ("largest motion (mm)", "at (rad/s)", "above yield (rad/s)")
 """Columns of the table of large motion, for each contact."""
 
 _LONGEST = 3
+_NEUTRAL = "#767676"  # letters and lines that can be read on a white and on a dark page
+_ON_ANY_PAGE: dict[Any, Any] = {
+    **dict.fromkeys(("text.color", "axes.labelcolor", "axes.edgecolor", "xtick.color", "ytick.color"), _NEUTRAL),
+    **dict.fromkeys(("figure.facecolor", "axes.facecolor"), "none"),
+    **{f"{name}size": 10 for name in ("font.", "axes.title", "axes.label", "xtick.label", "ytick.label", "legend.font")},
+    "grid.color": _NEUTRAL,
+}
 
 
 def draw(input: Any, output: Any, params: Any) -> None:
@@ -60,7 +66,7 @@ def draw(input: Any, output: Any, params: Any) -> None:
         columns[f"{words}: linear"] = linear.loc[scene, LENGTH]
     lengths = pd.DataFrame(columns).sort_values("bare casing: worst motion").round()
     _write(lengths.map("{:.0f}".format), output.table)
-    with plt.rc_context(ON_ANY_PAGE):
+    with plt.rc_context(_ON_ANY_PAGE):
         figure, panels = plt.subplots(2, 1, figsize=(5.2, 5.0), sharex=True)
         for axes, words in zip(panels, SCENES.values(), strict=True):
             _bars(axes, lengths[f"{words}: from rest"], lengths[f"{words}: worst motion"])

@@ -12,7 +12,7 @@ from typing import Any
 from r37core.measured.panel import closing_of_calibration
 from r37core.requirements.table import closing
 
-from .pages import write_table
+from .tables import write_table
 
 COPIED = ("Snakefile", "config", "envs", "examples", "profiles", "workflow")
 STRESS = "fatigue_Fan__Room_0p00034_0p004"

@@ -23,7 +23,7 @@ from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.clearance import growth
 
 from .configuration import settings_of
-from .pages import write_table
+from .tables import write_table
 
 
 def tip(input: Any, output: Any, params: Any) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 from published import REFERENCE
 
 from .configuration import settings_of
-from .pages import write_table
+from .tables import write_table
 
 PRINTED = "printed in the paper"
 

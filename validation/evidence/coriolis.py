@@ -17,7 +17,7 @@ from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.speed_run import run_speed
 
 from .configuration import settings_of
-from .pages import write_table
+from .tables import write_table
 
 LINED, BARE = "abradable", "direct"
 ABOUT = np.arange(-12.0, 19.0)

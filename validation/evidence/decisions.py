@@ -10,7 +10,7 @@ from r37core.figures import style
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
 
-from .pages import write_table
+from .tables import write_table
 
 CLEARANCE, THICKNESS = "scene.casing.clearance_m", "scene.lining.thickness_m"
 

@@ -17,7 +17,7 @@ from r37core.results.regions import read_judged
 from r37core.time_integration.status import RunStatus
 
 from .configuration import settings_of
-from .pages import write_table
+from .tables import write_table
 
 SHIPPED, FASTEST = "elastic_abradable", 2000.0
 THICKNESSES, FLANGES = (2e-3, 1e-3), {"stiff": 1e9, "soft": 1e7}

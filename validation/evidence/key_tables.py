@@ -23,7 +23,8 @@ from r37core.second_motions.tables import RANGE_COLUMNS, RANGES
 
 from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
 from .keys_again import Shown, ShownModels
-from .pages import replace_part, write_table
+from .pages import replace_part
+from .tables import write_table
 
 UNIT_OF_SUFFIX = {
     "_m": "m",

@@ -29,7 +29,7 @@ from r37core.time_integration.simulate import Simulation
 
 from .blade_runs import mesh_of, reduced_model
 from .configuration import settings_of
-from .pages import write_table
+from .tables import write_table
 
 BENT = (0.010, 0.015)
 """Motions (m) of the leading edge by linear theory."""

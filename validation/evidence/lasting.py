@@ -10,7 +10,7 @@ from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
 from r37core.time_integration.settling import MotionAtEnd
 
-from .pages import write_table
+from .tables import write_table
 
 STATES = (MotionAtEnd.LASTING, MotionAtEnd.GROWING, MotionAtEnd.CUT_FREE, MotionAtEnd.QUIET)
 

@@ -17,7 +17,7 @@ from r37core.stress.statistic import stress_statistic
 from .accuracy import SHARES, percent
 from .blade_runs import Models, mesh_of, numbers_of_run, reduced_model, speeds_about_crossing, with_friction
 from .configuration import settings_of
-from .pages import write_table
+from .tables import write_table
 
 SCENE, LEVEL = "material_abradable", "draft"
 CONTACT_LENGTHS = (0.5e-4, 1.585e-4, 5e-4, 1e-3)

@@ -23,7 +23,7 @@ from r37core.time_integration.speed_run import run_speed
 
 from .configuration import settings_of
 from .mesh_step import mesh_step
-from .pages import write_table
+from .tables import write_table
 
 PUBLISHED = {row.engine_order: row.campbell for row in INTERACTIONS if row.blade == REFERENCE}
 """Crossings of 1B with these orders (rad/s)."""

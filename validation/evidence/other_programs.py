@@ -17,7 +17,7 @@ from r37core.time_integration.simulate import Simulation
 
 from .configuration import settings_of
 from .equations_of_motion import bar_stiffness, blade_of, static_contact, with_static_modes, with_wear
-from .pages import write_table
+from .tables import write_table
 
 SPEED, SAMPLES, REVOLUTIONS = 1600.0, 200, 1
 """Speed (rad/s), samples per revolution and revolutions of the comparisons with solve_ivp."""

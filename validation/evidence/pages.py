@@ -6,12 +6,13 @@ A number in a sentence stands before its source, `452<!--NAME:Ref:bare_casing-->
 number of a cell on its place, from 0. A row is named by its first cell, or by its first cells joined by +.
 """
 
-import csv
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from r37core.base.io import atomic_write, write_text
+from r37core.base.io import write_text
+
+from .tables import read_table
 
 _MARKER = re.compile(r"^<!-- (?:table|lines) (\w+)(?:: [^\n]*)? -->$", re.MULTILINE)
 _NUMBER = re.compile(
@@ -29,18 +30,6 @@ def replace_part(text: str, name: str, part: str) -> str:
     if markers is None:
         raise ValueError(f"there is no part between <!-- {name} --> and <!-- end -->")
     return f"{text[: markers.start()]}{markers[1]}{part.rstrip()}\n<!-- end -->{text[markers.end() :]}"
-
-
-def write_table(head: Sequence[str], rows: Iterable[Sequence[str]], file: Path | str) -> None:
-    """Write a table as CSV, its cells as a reader sees them."""
-    with atomic_write(file) as new, open(new, "w", newline="", encoding="utf-8") as stream:
-        csv.writer(stream, lineterminator="\n").writerows([head, *rows])
-
-
-def read_table(file: Path | str) -> list[list[str]]:
-    """Rows of a table, the head first."""
-    with open(file, newline="", encoding="utf-8") as stream:
-        return list(csv.reader(stream))
 
 
 def markdown(rows: Iterable[Sequence[str]]) -> str:

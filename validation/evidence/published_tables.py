@@ -12,10 +12,10 @@ from published import BLADES, REFERENCE
 from r37core.base.dataset_file import read_dataset
 
 from .checks import Check, number, score
-from .pages import write_table
 from .published_checks import PROTOTYPE, Runs, structure_checks, survey_checks, window_checks
 from .published_runs import choice_runs, level_runs, responses_of
 from .published_windows import CHOICES
+from .tables import write_table
 
 GROUPS = {
     "shape: areas, volume": r"^(area|volume)",

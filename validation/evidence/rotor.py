@@ -10,7 +10,7 @@ from r37core.results.exceedance import length_of, ranges_above
 from r37core.results.regions import read_judged
 from r37core.time_integration.status import RunStatus
 
-from .pages import write_table
+from .tables import write_table
 
 SINGLE = "single"
 KINDS = {"equal": "36 equal blades", "mistuned_1": "1% of mistuning", "mistuned_1_other": "1%, another draw"}

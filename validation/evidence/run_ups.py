@@ -7,7 +7,7 @@ import pandas as pd
 
 from r37core.run_ups.tables import safe_rates
 
-from .pages import write_table
+from .tables import write_table
 
 SHOWN = (100, 3000)
 """Rates (rad/s2) at which the stress is shown."""

@@ -4,7 +4,7 @@ from typing import Any
 
 import pandas as pd
 
-from .pages import write_table
+from .tables import write_table
 
 SHOWN = ("time integration", "start-up", "total")
 

@@ -6,7 +6,7 @@ import pandas as pd
 
 from r37core.trials.stability_tables import DEGRADED, DIVERGED, OUTCOMES
 
-from .pages import write_table
+from .tables import write_table
 
 
 def counts(input: Any, output: Any, params: Any) -> None:

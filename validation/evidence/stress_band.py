@@ -15,7 +15,7 @@ from r37core.figures.style import PAGE, plt, save
 
 from .blade_runs import AIRFOIL, Models, mesh_of, numbers_of_run, reduced_model
 from .configuration import settings_of
-from .pages import write_table
+from .tables import write_table
 
 BARE, LINED, ELASTIC = "direct", "material_abradable", "elastic_direct"
 HIGHEST, KEPT = 7500.0, (3000.0, 5000.0, 7500.0, 10_000.0, 15_000.0, 25_000.0, 50_000.0)

@@ -9,7 +9,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.base.rounding import rounded_to
 from r37core.results.table_file import read_table
 
-from .pages import write_table
+from .tables import write_table
 
 COLUMNS = {
     "peak (rad/s)": ("peak_speed_rad_s", 1.0, 0),

@@ -8,7 +8,7 @@ import pytest
 from conftest import CHECKOUT
 from evidence import accuracy, lining
 from evidence.accuracy import BARE_SPEEDS, CASES, LEVELS, PERTURBED, REFERENCE, STRONG_PERTURBED
-from evidence.pages import read_table
+from evidence.tables import read_table
 from plan.accuracy import DRAWN
 
 OFF = {**dict(zip(LEVELS, (0.04, 0.02, 0.01), strict=True)), PERTURBED: 0.025, STRONG_PERTURBED: 0.3}

@@ -7,7 +7,7 @@ import subprocess
 import pytest
 from conftest import CHECKOUT
 from evidence.key_tables import COLUMNS, UNIT_OF_SUFFIX, column_rows, filled, tables
-from evidence.pages import read_table
+from evidence.tables import read_table
 from test_declared_keys import SealSection
 
 from r37core.base.units import SUFFIXES

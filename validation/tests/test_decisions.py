@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pandas as pd
 from evidence import lining
-from evidence.pages import read_table
+from evidence.tables import read_table
 
 
 def test_blades_are_ranked_by_contact_length(tmp_path):

@@ -6,7 +6,8 @@ import shutil
 
 import pytest
 from conftest import CHECKOUT
-from evidence.pages import Pages, markdown, read_table, renewed, write_table
+from evidence.pages import Pages, markdown, renewed
+from evidence.tables import read_table, write_table
 from workflow_runs import snakemake
 
 PAGES = Pages(CHECKOUT)

@@ -3,8 +3,8 @@
 import numpy as np
 import xarray as xr
 from evidence import lasting, rotor, tolerances
-from evidence.pages import read_table
 from evidence.plan import Named
+from evidence.tables import read_table
 
 from r37core.time_integration.settling import MotionAtEnd
 
