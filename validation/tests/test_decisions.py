@@ -7,7 +7,7 @@ from evidence import lining
 from evidence.tables import read_table
 
 
-def test_blades_are_ranked_by_contact_length(tmp_path):
+def test_lengths_of_all_blades_stand_together(tmp_path):
     files = []
     for blade, lengths in {"Ref": (30.0, 5.0), "S100": (10.0, 20.0)}.items():
         files.append(tmp_path / f"{blade}.csv")
@@ -16,5 +16,5 @@ def test_blades_are_ranked_by_contact_length(tmp_path):
     lining.contact_lengths(SimpleNamespace(files=files), output, None)
     head, *rows = read_table(output.table)
     assert head == ["blade", "0.05 mm", "1 mm"]
-    assert rows == [["Ref", "30 (2)", "5 (1)"], ["S100", "10 (1)", "20 (2)"]]
+    assert rows == [["Ref", "30", "5"], ["S100", "10", "20"]]
     assert output.picture.stat().st_size > 10_000
