@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from evidence.key_tables import COLUMNS
-from evidence.pages import Pages, renewed
+from evidence.pages import Pages, of_now
 from evidence.plan import TABLES, Plan
 from r37core.base.io import read_json
 
@@ -35,9 +35,11 @@ def out_of_date(plan: Plan) -> dict[str, str]:
     shown = {*pages.all_tables, *pages.pictures} - {str(COLUMNS)}
     stale |= dict.fromkeys(sorted(shown - plan.committed.keys()), "no item makes it")
     for page in pages.files:
-        text, tables = (root / page).read_text(encoding="utf-8"), [root / name for name in pages.tables(page)]
-        if all(table.exists() for table in tables) and renewed(text, tables) != text:
-            stale[page] = "its tables have other numbers"
+        try:
+            if of_now(root, page) != (root / page).read_text(encoding="utf-8"):
+                stale[page] = "its tables have other numbers"
+        except (FileNotFoundError, ValueError) as error:
+            stale[page] = str(error)
     return stale
 
 

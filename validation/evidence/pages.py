@@ -8,6 +8,7 @@ number of a cell on its place, from 0. A row is named by its first cell, or by i
 
 import re
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from r37core.base.io import write_text
@@ -104,10 +105,14 @@ def _word(cell: str) -> str:
 
 
 def renew_all(root: Path) -> None:
-    """Put the tables and numbers into all pages of a project; a page whose tables are not there stays as it is."""
-    pages = Pages(root)
-    for name in pages.files:
-        page, tables = root / name, [root / table for table in pages.tables(name)]
-        text = page.read_text(encoding="utf-8")
-        if all(table.exists() for table in tables) and renewed(text, tables) != text:
-            write_text(renewed(text, tables), page)
+    """Put the tables and numbers into all pages of a project; a page that asks for one that is not there stays as it is."""
+    for name in Pages(root).files:
+        text = (root / name).read_text(encoding="utf-8")
+        with suppress(FileNotFoundError, ValueError):
+            if (new := of_now(root, name)) != text:
+                write_text(new, root / name)
+
+
+def of_now(root: Path, name: str) -> str:
+    """Text of a page with what its tables have now. Raises FileNotFoundError without one, ValueError without a number."""
+    return renewed((root / name).read_text(encoding="utf-8"), [root / table for table in Pages(root).tables(name)])
