@@ -1,4 +1,4 @@
-"""What the levels cost in accuracy and time on the seven blades, against a finer reference and chance (docs/accuracy.md)."""
+"""What the levels cost in accuracy and time on three blades, against a finer reference and chance (docs/accuracy.md)."""
 
 from __future__ import annotations
 
@@ -116,13 +116,12 @@ def worst(errors: pd.Series) -> tuple[str, float]:
 
 
 def tables(input: Any, output: Any, params: Any) -> None:
-    """Levels, blades, friction and penetration, and those of points. Input: `patches` and `points`, files of runs."""
+    """Levels, blades, friction and penetration. Input: `patches`, files of runs."""
     runs = Runs(input.patches)
     write_table(*_levels(runs), output.levels)
     write_table(*_by_blade(runs, LEVELS), output.blades)
     write_table(*_friction(runs), output.friction)
     write_table(*_penetration(runs), output.penetration)
-    write_table(*_by_blade(Runs(input.points), LEVELS), output.points)
 
 
 def _levels(runs: Runs) -> tuple[list[str], list[list[str]]]:
@@ -173,15 +172,13 @@ def _penetration(runs: Runs) -> tuple[list[str], list[list[str]]]:
 
 
 def draw(input: Any, output: Any, params: Any) -> None:
-    """A blade on the bare casing on the meshes of all levels. Input: `patches` and `points`, files of its runs."""
-    figure, panels = plt.subplots(1, 2, figsize=(PAGE, 2.6), sharey=True)
-    for axes, (contact, file) in zip(panels, input.items(), strict=True):
-        runs = Runs([file])
-        for level in LEVELS:
-            curve = 1e3 * runs.of(level, "bare").loc[runs.blades[0]]
-            axes.plot(curve.index, curve, label=f"mesh of {level}")
-        axes.set_title(f"{runs.blades[0]}, bare casing, {contact}")
-        axes.set_xlabel("speed (rad/s)")
-    panels[0].set_ylabel("rms of the leading edge (mm)")
-    panels[0].legend()
+    """A blade on the bare casing on the meshes of all levels. Input: `patches`, its runs."""
+    runs = Runs([input.patches])
+    figure, axes = plt.subplots(figsize=(0.7 * PAGE, 2.6))
+    for level in LEVELS:
+        curve = 1e3 * runs.of(level, "bare").loc[runs.blades[0]]
+        axes.plot(curve.index, curve, label=f"mesh of {level}")
+    axes.set(title=f"{runs.blades[0]}, bare casing", xlabel="speed (rad/s)", ylabel="rms of the leading edge (mm)")
+    axes.set_ylim(bottom=0.0)
+    axes.legend()
     save(figure, output.picture)
