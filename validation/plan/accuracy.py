@@ -16,6 +16,8 @@ EVIDENCE = [
             ALL_SPEEDS.models(blade),
             {"blade": blade, "configuration": DECIDING, "picture": blade == "S50"},
             sources=DECIDING_SOURCES,
+            # the finest mesh takes 3.4 GB
+            alone=True,
         )
         for blade, file in PATCHES.items()
     ),
