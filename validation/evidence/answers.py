@@ -24,12 +24,7 @@ from .tables import write_table
 
 LINING, BARE = "material_abradable", "direct"
 SCENES = {BARE: "bare casing", LINING: "abradable lining"}
-TRIED = {
-    "twice": "twice as long",
-    "friction": "0.1% more friction",
-    "elastic": "flexible casing",
-    "pressed": "contact length 0.5 mm",
-}
+TRIED = {"twice": "twice as long", "friction": "0.1% more friction", "elastic": "flexible casing"}
 """Scenes of the cases by the beginning of their names, and what they vary."""
 
 LENGTH, WORST = "length_most_revolutions_rad_s", "length_most_revolutions_worst_rad_s"

@@ -4,7 +4,7 @@ from evidence.plan import Item, Run, table
 
 from plan.runs import ALL_SPEEDS, BLADES, DECIDING, SCENES
 
-LINED = [f"{kind}_abradable" for kind in ("twice", "friction", "pressed")]
+LINED = [f"{kind}_abradable" for kind in ("twice", "friction")]
 BARE = [f"{kind}_direct" for kind in ("twice", "friction", "elastic")]
 # on the bare casing all speeds count, on the lining those about 1B/4 of all blades, with carried motions
 COARSE = [{"start": 750, "stop": 2000, "step": 50}]
