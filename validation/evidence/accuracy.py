@@ -1,4 +1,4 @@
-"""What the levels cost in accuracy and time on three blades, against a finer reference and chance (docs/accuracy.md)."""
+"""What the levels cost in accuracy and time on two blades, against a finer reference and chance (docs/accuracy.md)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 
 from r37core.base.io import atomic_write
-from r37core.figures.style import PAGE, plt, save
 
 from .blade_runs import Models, mesh_of, numbers_of_run, reduced_model, speeds_about_crossing, with_friction
 from .configuration import settings_of
@@ -24,8 +23,7 @@ SHARES = (0.97, 0.98, 0.99, 1.0, 1.01, 1.02, 1.03, 1.04)
 """Speeds on the lining, as shares of that of 1B/4."""
 
 BARE_SPEEDS = (1000.0, 1200.0, 1400.0, 1600.0, 1800.0)
-CURVE = tuple(np.arange(750.0, 2000.5, 25.0))
-"""Speeds (rad/s) on the bare casing, and those of a picture."""
+"""Speeds (rad/s) on the bare casing."""
 
 
 @dataclass(frozen=True)
@@ -48,23 +46,23 @@ CASES = {
 
 
 def runs_of_blade(input: Any, output: Any, params: Any) -> None:
-    """Runs of a blade in all cases. Input: models of `standard`, or none. Params: blade, configuration, picture."""
+    """Runs of a blade in all cases. Input: its models at `standard`. Params: blade, configuration."""
     rows, speeds = [], []
     for level in ("standard", "draft", "fine"):
         settings = settings_of(Path.cwd(), **params.configuration, fidelity=level)
-        if level == "standard" and input:
+        if level == "standard":
             models = Models.read(input.contact, input.stress)
         else:
             models = Models.of(reduced_model(mesh_of(settings, params.blade), settings, params.blade), settings, params.blade)
         speeds = speeds or speeds_about_crossing(models.contact, SHARES)
         for name, case in CASES.items():
             if case.level == level:
-                rows += _runs(models, settings, name, params.blade, speeds, CURVE if params.picture else BARE_SPEEDS)
+                rows += _runs(models, settings, name, params.blade, speeds)
     with atomic_write(output.runs) as new:
         pd.DataFrame(rows).to_csv(new, index=False, float_format="%.8g")
 
 
-def _runs(models: Models, settings: Any, name: str, blade: str, lined: Any, bare: Any) -> Iterator[dict[str, Any]]:
+def _runs(models: Models, settings: Any, name: str, blade: str, lined: Any) -> Iterator[dict[str, Any]]:
     """Rows of a case in both scenes. The last scene is the bare casing."""
     case = CASES[name]
     for scene, chosen in settings.scenes.items():
@@ -72,7 +70,7 @@ def _runs(models: Models, settings: Any, name: str, blade: str, lined: Any, bare
         if case.coefficient and not is_bare:
             continue
         varied = with_friction(chosen.scene, case.friction, case.coefficient)
-        for share, speed in zip(("bare",) * len(bare) if is_bare else SHARES, bare if is_bare else lined, strict=True):
+        for share, speed in zip(BARE_SPEEDS if is_bare else SHARES, BARE_SPEEDS if is_bare else lined, strict=True):
             choice = settings.integration_choice(blade, scene, speed)
             # of the step that the level has here
             run = numbers_of_run(models, speed, varied, replace(choice, time_step=case.step * choice.time_step))
@@ -95,8 +93,7 @@ class Runs:
 
     def errors(self, case: str, against: str, scene: str, quantity: str = "motion") -> pd.Series:
         """Differences (%) of a case by blade and speed."""
-        change = 100.0 * abs(self.of(case, scene, quantity) / self.of(against, scene, quantity) - 1.0)
-        return change if scene == "lining" else change[change.index.get_level_values("speed").isin(BARE_SPEEDS)]
+        return 100.0 * abs(self.of(case, scene, quantity) / self.of(against, scene, quantity) - 1.0)
 
     def compared(self, case: str, scene: str, quantity: str = "motion") -> pd.Series:
         """Errors of a level against the reference, and of a perturbation against what it perturbs."""
@@ -169,16 +166,3 @@ def _penetration(runs: Runs) -> tuple[list[str], list[list[str]]]:
     largest = [1e6 * runs.of(level, "bare", "penetration").groupby("blade").max() for level in LEVELS]
     rows = [[blade, *(f"{values[blade]:.0f}" for values in largest)] for blade in runs.blades]
     return ["blade", *(f"{level} (um)" for level in LEVELS)], rows
-
-
-def draw(input: Any, output: Any, params: Any) -> None:
-    """A blade on the bare casing on the meshes of all levels. Input: `patches`, its runs."""
-    runs = Runs([input.patches])
-    figure, axes = plt.subplots(figsize=(0.7 * PAGE, 2.6))
-    for level in LEVELS:
-        curve = 1e3 * runs.of(level, "bare").loc[runs.blades[0]]
-        axes.plot(curve.index, curve, label=f"mesh of {level}")
-    axes.set(title=f"{runs.blades[0]}, bare casing", xlabel="speed (rad/s)", ylabel="rms of the leading edge (mm)")
-    axes.set_ylim(bottom=0.0)
-    axes.legend()
-    save(figure, output.picture)
