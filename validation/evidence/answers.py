@@ -105,7 +105,8 @@ def checks(input: Any, output: Any, params: Any) -> None:
     cases = read_dataset(input.lined)
     speeds = cases["speed"].values
     motions = {"1540 to 1780 rad/s every 10": (every, LINING), "level draft": (read_dataset(input.lined_draft), LINING)}
-    motions |= {TRIED[str(scene).split("_")[0]]: (cases, str(scene)) for scene in cases["scene"].values}
+    lined = [str(scene) for scene in cases["scene"].values if str(scene).endswith("_abradable")]
+    motions |= {TRIED[scene.split("_")[0]]: (cases, scene) for scene in lined}
     for name, (dataset, scene) in motions.items():
         rows[SCENES[LINING], name] = _worst_lengths(dataset, scene, speeds)
     table = pd.DataFrame(rows).T.rename_axis(["contact", "what"]).sort_index(level=0, sort_remaining=False, kind="stable")
