@@ -1,4 +1,4 @@
-"""The commands of docs/assess.md and docs/measurement.md on the fan blade: verdicts, pictures and fitted numbers."""
+"""The commands of docs/assess.md on the fan blade: verdicts and pictures."""
 
 import re
 import shlex
@@ -9,7 +9,6 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from r37core.measured.panel import closing_of_calibration
 from r37core.requirements.table import closing
 
 from .tables import write_table
@@ -25,21 +24,6 @@ def commands(page: str) -> dict[str, list[str]]:
         next((re.findall(r"name: (\w+)", word)[0] for word in words if word.startswith("run=")), "fan") for words in several
     ]
     return dict(zip(names, several, strict=True))
-
-
-def measurement(input: Any, output: Any, params: Any) -> None:
-    """The lines that runs of docs/measurement.md end with. Inputs: fan, its files. Params: page. Outputs: table, picture."""
-    rows = []
-    with tempfile.TemporaryDirectory() as name:
-        folder = copied(Path(name))
-        for words in re.findall(r"```sh\n(snakemake .*?)```", Path(params.page).read_text(encoding="utf-8"), re.DOTALL):
-            subprocess.run([sys.executable, "-m", *shlex.split(words)], cwd=folder, check=True)
-        for run in ("fan_test", "fan_wrong_model"):
-            results = folder / "results/runs" / run
-            rows.append([run, "calibrate", closing_of_calibration(results)])
-        rows.append(["fan_calibrated", "verdict", closing(folder / "results/runs/fan_calibrated").splitlines()[1].strip()])
-        shutil.copy(folder / "results/runs/fan_test/figures/calibration.png", output.picture)
-    write_table(["run", "what", "line"], rows, output.table)
 
 
 def copied(folder: Path) -> Path:

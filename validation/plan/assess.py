@@ -1,4 +1,4 @@
-"""The fan blade of another program, judged by the commands of docs/assess.md, and of docs/measurement.md."""
+"""The fan blade of another program, judged and attacked by the commands of docs/assess.md."""
 
 from pathlib import Path
 
@@ -13,12 +13,5 @@ EVIDENCE = [
         params={"page": "docs/assess.md"},
         sources=FAN,
         alone=True,
-    ),
-    Item(
-        "evidence.assess.measurement",
-        {"table": table("measurement"), "picture": "docs/measurement.png"},
-        params={"page": "docs/measurement.md"},
-        sources=FAN,
-        alone=True,
-    ),
+    )
 ]
