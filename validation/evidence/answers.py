@@ -34,8 +34,10 @@ REGIONS = {"box at the root alone": "_box", "modes above 7.5 kHz, too": "_airfoi
 DRAWN = ("Ref", "S100")
 """Blades whose motion is drawn: without sweep, and with most of it."""
 
-INTERACTIONS = ("blade", "1B/4 at (rad/s)", "three longest ranges above yield (rad/s)", "all ranges (rad/s)")
-INTERACTIONS += ("largest motion (mm)", "largest from rest", "at (rad/s)")
+INTERACTIONS = (
+    *("blade", "1B/4 at (rad/s)", "three longest ranges above yield (rad/s)", "all ranges (rad/s)"),
+    *("largest motion (mm)", "largest from rest", "at (rad/s)"),
+)
 """Columns of the tables of interactions: ranges and motion by the worst motion, the last two from rest."""
 
 MOTION = ("largest motion (mm)", "at (rad/s)", "above yield (rad/s)")

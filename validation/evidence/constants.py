@@ -14,7 +14,8 @@ PRINTED = "printed in the paper"
 def table(input: Any, output: Any, params: Any) -> None:
     """Table of all constants of the scenes with lining and without."""
     settings = settings_of(Path.cwd(), fidelity="paper")
-    scene, bare = (settings.scenes[name].scene for name in ("abradable", "direct"))
+    scene: Any = settings.scenes["abradable"].scene
+    bare = settings.scenes["direct"].scene
     material, level = settings.blades[REFERENCE].material, settings.fidelity
     casing, lining, run = scene.casing, scene.lining, level.time_integration
     giga = [f"{1e-9 * value:g}" for value in (material.youngs_modulus, lining.elastic_modulus, lining.plastic_modulus)]

@@ -30,7 +30,8 @@ def lengths(input: Any, output: Any, params: Any) -> None:
 def draw_stresses(designs: pd.DataFrame, file: str) -> None:
     """A map of the largest stress for each blade: thickness of the lining over clearance."""
     blades = designs["blade"].unique()
-    with plt.rc_context({f"{name}size": 9 for name in ("font.", "axes.title", "axes.label", "xtick.label", "ytick.label")}):
+    sizes: dict[Any, int] = dict.fromkeys(("font.size", *(f"{name}size" for name in ("axes.title", "axes.label"))), 9)
+    with plt.rc_context(sizes | dict.fromkeys(("xtick.labelsize", "ytick.labelsize"), 9)):
         figure, panels = plt.subplots(len(blades), 1, figsize=(4.6, 1.75 * len(blades)), sharex=True)
         for axes, blade in zip(panels, blades, strict=True):
             part = designs[designs["blade"] == blade]

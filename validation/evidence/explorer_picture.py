@@ -31,6 +31,7 @@ def picture(input: Any, output: Any, params: Any) -> None:
         page.screenshot(path=output.picture)
         browser.close()
     text = Path(input.page).read_text(encoding="utf-8")
-    contents = json.loads(re.search(r'<script type="application/json" id="data">(.*)</script>', text)[1])
+    (data,) = re.findall(r'<script type="application/json" id="data">(.*)</script>', text)
+    contents = json.loads(data)
     # three quarters of the file
     write_text(json.dumps(contents | {"spectrum": None}) + "\n", output.contents)

@@ -90,7 +90,7 @@ def contact_lengths_of_blade(input: Any, output: Any, params: Any) -> None:
         for speed in np.arange(FIRST, LAST + 1.0, STEP):
             run = numbers_of_run(models, float(speed), other, settings.integration_choice(params.blade, SCENE, float(speed)))
             share = stress_statistic(run["revolution_von_mises"][0], limit)["share_of_revolutions_above_yield"]
-            above += bool(run["status"]) or share > 0.5
+            above += int(bool(run["status"]) or share > 0.5)
         row[f"{1e3 * length:.3g}"] = STEP * above
     pd.DataFrame([row]).to_csv(output.lengths, index=False)
 

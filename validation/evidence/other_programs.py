@@ -117,8 +117,8 @@ def material(input: Any, output: Any, params: Any) -> None:
     for blade, speed, length in (("Ref", 1600.0, 1.585e-4), ("CS50", 1500.0, 5e-5)):
         lining = replace(scene.lining, contact_length=length)
         model = read_contact_model(input[blade])
-        errors = zip(*on_yielding_bars(model, replace(scene, lining=lining), speed, parts), strict=True)
-        cells = [f"{share:.1e}" for pair in errors for share in pair]
+        pairs = zip(*on_yielding_bars(model, replace(scene, lining=lining), speed, parts), strict=True)
+        cells = [f"{share:.1e}" for pair in pairs for share in pair]
         rows.append([blade, f"{speed:.0f}", f"{1e3 * length:.3g}", *cells])
     errors = [f"{part} steps per bar: {what}" for part in parts for what in ("motion", "wear")]
     write_table(["blade", "speed (rad/s)", "contact length (mm)", *errors], rows, output.table)

@@ -51,6 +51,7 @@ def models_of(settings: Settings, blade: str) -> Models:
 def cases_of(scene: Scene, ring: Scene) -> Iterator[tuple[str, Scene, float]]:
     """Cases in words, their scenes, and shares of the level's step. `ring`: a scene with the elastic casing."""
     yield USUAL, scene, 1.0
+    assert isinstance(scene.damping_ratio, float)
     for factor in (3, 10):
         table = DampingTable((HIGHEST, HIGHEST + 1.0), (scene.damping_ratio, factor * scene.damping_ratio))
         yield f"modes above 7.5 kHz damped {factor} times as much", replace(scene, damping_ratio=table), 1.0
