@@ -229,6 +229,11 @@ def column_rows() -> Iterator[tuple[str, str, str]]:
             yield file, name, column.meaning
 
 
+def columns(input: Any, output: Any, params: Any) -> None:
+    """Every declared column of the tables of results, and what it means."""
+    write_table(("file", "column", "meaning"), column_rows(), output.table)
+
+
 def main(root: Path = Path()) -> None:
     """Renew the page of the configuration, and the table of columns."""
     page = root / "docs/configuration.md"

@@ -1,6 +1,6 @@
 """Pictures of pages that are figures of a run, and the worked example of docs/your_blade.md, drawn as the page says."""
 
-from evidence.plan import Item
+from evidence.plan import Item, table
 
 from plan.runs import ALL_SPEEDS, MAIN
 
@@ -26,4 +26,6 @@ EVIDENCE = [
         sources=["docs/tutorial.py"],
         alone=True,
     ),
+    # of the product's code alone: a test says whether it is fresh
+    Item("evidence.key_tables.columns", {"table": table("columns")}),
 ]
