@@ -6,6 +6,7 @@ import textwrap
 from pathlib import Path
 
 from sphinx.pycode import ModuleAnalyzer
+from written_pages import write_folder
 
 CORE = Path(__file__).parent.parent.parent / "src" / "r37core"
 
@@ -111,19 +112,11 @@ def core_page(package):
 
 
 def write_pages(app):
-    """Write the pages that differ from what is there, so that a second build reads only what is new."""
+    """Write the pages of all names and packages."""
     pages = {"r37": overview_page()}
     pages |= {f"r37.{name}": name_page(name, value) for name, value in documented().items()}
     pages |= {f"r37core.{name}": core_page(name) for name in packages()}
-    folder = Path(app.srcdir) / "api"
-    folder.mkdir(exist_ok=True)
-    for old in folder.glob("*.rst"):
-        if old.stem not in pages:
-            old.unlink()
-    for name, text in pages.items():
-        file = folder / f"{name}.rst"
-        if not file.exists() or file.read_text(encoding="utf-8") != text:
-            file.write_text(text, encoding="utf-8")
+    write_folder(Path(app.srcdir) / "api", ".rst", pages)
 
 
 def with_options(app, what, name, obj, options, signature, returned):

@@ -10,6 +10,7 @@ sys.path.append(str(ROOT / "validation"))
 
 from evidence import pages, tables  # noqa: E402
 from evidence.plan import TABLES, Plan  # noqa: E402
+from written_pages import write_folder  # noqa: E402
 
 COMMAND = "snakemake -s validation/Snakefile --cores 2"
 
@@ -62,22 +63,14 @@ def words(name):
 
 
 def write_pages(app):
-    """Write the pages of all tables and their list, where they differ from what is there."""
-    plan, folder = Plan(ROOT), Path(app.srcdir) / "tables"
+    """Write the pages of all tables, and their list."""
+    plan = Plan(ROOT)
     # a link to one that was never made is refused as a broken one
     made = (file for file in plan.committed if file.endswith(".csv") and (ROOT / file).exists())
     items = {Path(file).stem: plan.committed[file] for file in made}
     texts = {file.stem: file.read_text(encoding="utf-8") for file in sorted(Path(app.srcdir).glob("*.md"))}
     written = {name: table_page(name, item, plan.stamp(item), texts) for name, item in items.items()}
-    written["index"] = list_page(items)
-    folder.mkdir(exist_ok=True)
-    for old in folder.glob("*.md"):
-        if old.stem not in written:
-            old.unlink()
-    for name, text in written.items():
-        file = folder / f"{name}.md"
-        if not file.exists() or file.read_text(encoding="utf-8") != text:
-            file.write_text(text, encoding="utf-8")
+    write_folder(Path(app.srcdir) / "tables", ".md", written | {"index": list_page(items)})
 
 
 def setup(app):

@@ -106,7 +106,7 @@ def checks(input: Any, output: Any, params: Any) -> None:
         rows[SCENES[BARE], name] = {_blade_of(file): _length_at(read_judged(file), coarse) for file in files}
     cases = read_dataset(input.lined)
     speeds = cases["speed"].values
-    motions = {"1540 to 1780 rad/s every 10": (every, LINING), "level draft": (read_dataset(input.lined_draft), LINING)}
+    motions = {"1540 to 1780 rad/s every 5": (every, LINING), "level draft": (read_dataset(input.lined_draft), LINING)}
     lined = [str(scene) for scene in cases["scene"].values if str(scene).endswith("_abradable")]
     motions |= {TRIED[scene.split("_")[0]]: (cases, scene) for scene in lined}
     for name, (dataset, scene) in motions.items():

@@ -28,9 +28,6 @@ from r37core.time_integration.speed_run import run_speed
 AIRFOIL = "airfoil"
 """Region that decides."""
 
-CONFIGURATION = tuple(f"config/{name}.yaml" for name in ("blades", "config", "fidelity", "scenes"))
-DECIDING_SOURCES = (*CONFIGURATION, "validation/deciding.yaml")
-
 
 @dataclass(frozen=True)
 class Models:

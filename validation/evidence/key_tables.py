@@ -231,14 +231,19 @@ def column_rows() -> Iterator[tuple[str, str, str]]:
 
 def columns(input: Any, output: Any, params: Any) -> None:
     """Every declared column of the tables of results, and what it means."""
-    write_table(("file", "column", "meaning"), column_rows(), output.table)
+    write_columns(output.table)
+
+
+def write_columns(file: Path | str) -> None:
+    """Write the table of columns."""
+    write_table(("file", "column", "meaning"), column_rows(), file)
 
 
 def main(root: Path = Path()) -> None:
     """Renew the page of the configuration, and the table of columns."""
     page = root / "docs/configuration.md"
     write_text(filled(page.read_text(encoding="utf-8")), page)
-    write_table(("file", "column", "meaning"), column_rows(), root / COLUMNS)
+    write_columns(root / COLUMNS)
 
 
 if __name__ == "__main__":

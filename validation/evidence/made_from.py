@@ -7,14 +7,13 @@ from __future__ import annotations
 
 import fcntl
 import hashlib
-import json
 import sys
 from collections.abc import Iterable
 from pathlib import Path
 
 from evidence.pages import Pages, of_now
-from evidence.plan import TABLES, Plan
-from r37core.base.io import read_json
+from evidence.plan import MADE, TABLES, Plan
+from r37core.base.io import read_json, write_json
 
 RECORD = f"{TABLES}/made_from.json"
 
@@ -27,7 +26,7 @@ def out_of_date(plan: Plan) -> dict[str, str]:
             stale[file] = "was never made"
         elif known[file]["made_from"] != plan.hash_of(item.name):
             stale[file] = "what it is made from has changed"
-        elif is_other(plan, file):
+        elif not (root / file).exists() or content_hash(root / file) != known[file]["content"]:
             stale[file] = "is not what was made"
     pages = Pages(root)
     shown = {*pages.all_tables, *pages.pictures}
@@ -41,21 +40,16 @@ def out_of_date(plan: Plan) -> dict[str, str]:
     return stale
 
 
-def is_other(plan: Plan, file: str) -> bool:
-    """Whether a committed file was edited, or is gone, since it was made."""
-    known = read_json(plan.root / RECORD).get(file)
-    return known is not None and not ((plan.root / file).exists() and content_hash(plan.root / file) == known["content"])
-
-
 def note(plan: Plan, files: Iterable[str]) -> None:
     """Note what committed files have just been made from; several processes may do so at a time."""
     made = {file: plan.committed[file].name for file in files if file in plan.committed}
     new = {file: {"made_from": plan.hash_of(name), "content": content_hash(plan.root / file)} for file, name in made.items()}
-    with open(plan.root / RECORD) as stream:
+    lock = plan.root / MADE / "made_from.lock"
+    lock.parent.mkdir(parents=True, exist_ok=True)
+    with open(lock, "w") as stream:
         fcntl.flock(stream, fcntl.LOCK_EX)
         known = {file: entry for file, entry in read_json(plan.root / RECORD).items() if file in plan.committed}
-        # in place, as others wait for this very file
-        (plan.root / RECORD).write_text(json.dumps(dict(sorted((known | new).items())), indent=1) + "\n", encoding="utf-8")
+        write_json(dict(sorted((known | new).items())), plan.root / RECORD)
 
 
 def content_hash(file: Path) -> str:

@@ -114,13 +114,13 @@ class Plan:
         """Committed files, and the item that makes each."""
         return {file: item for file, item in sorted(self._maker.items()) if not file.startswith("results/")}
 
-    def behind(self, item: Item | Run) -> tuple[list[Item], list[Run]]:
+    def behind(self, part: Item | Run) -> tuple[list[Item], list[Run]]:
         """Items and runs whose files a part reads."""
-        if isinstance(item, Run):
+        if isinstance(part, Run):
             return [], []
-        makers = [self._maker.get(file) for file in item.read]
+        makers = [self._maker.get(file) for file in part.read]
         items = list(dict.fromkeys(maker.name for maker in makers if maker))
-        runs = {self._run_of(file).name: None for file, maker in zip(item.read, makers, strict=True) if not maker}
+        runs = {self._run_of(file).name: None for file, maker in zip(part.read, makers, strict=True) if not maker}
         return [self.items[name] for name in items], [self.runs[name] for name in runs]
 
     def targets(self, run: Run) -> list[str]:
@@ -155,12 +155,15 @@ class Plan:
         """What the hash of an item or a run is of."""
         if isinstance(part, Run):
             # the files that it is asked for do not count: another item may ask for more
-            yield repr([part.content, *self._entries_of(part)])
+            yield repr([part.content, *self._entries_of(part.content)])
             yield self._engine
             return
         # the numbers of the engine are made again when any of its code has changed, all else when these move
         yield self._all_code(part.step) if ENGINE in part.files else self._code(part.step)
         yield repr((part.step, part.outputs, part.inputs, part.params))
+        # of a step that runs the product's functions itself, at levels of its own
+        if configuration := part.params.get("configuration"):
+            yield repr(list(self._entries_of({"fidelity": "all"} | configuration)))
         yield from (hashlib.sha256((self.root / source).read_bytes()).hexdigest() for source in part.sources)
         if ENGINE not in part.files:
             yield self._engine
@@ -168,13 +171,13 @@ class Plan:
         yield from (self.hash_of(item.name) for item in items)
         yield from (self.hash_of(f"product_{run.name}") for run in runs)
 
-    def _entries_of(self, run: Run) -> Iterator[Any]:
-        """What a run takes from files of the configuration, as content: comments, layout and other entries do not count."""
+    def _entries_of(self, keys: Mapping[str, Any]) -> Iterator[Any]:
+        """What keys take from files of the configuration, as content: comments, layout and other entries do not count."""
         shipped = load_yaml(self.root / "config/config.yaml")
         yield shipped
         for kind in ("blades", "scenes", "fidelity"):
-            entries = load_yaml(self.root / str(run.content.get(f"{kind}_file", f"config/{kind}.yaml")))
-            yield used(entries, run.content.get(kind, shipped.get(kind, "all")))
+            entries = load_yaml(self.root / str(keys.get(f"{kind}_file", f"config/{kind}.yaml")))
+            yield used(entries, keys.get(kind, shipped.get(kind, "all")))
 
     @cached_property
     def _engine(self) -> str:
@@ -195,18 +198,13 @@ def used(entries: Mapping[str, Any], names: str | Sequence[str]) -> list[tuple[s
 
 
 class Named(dict[str, Any]):
-    """Files or parameters of a step by name, as attributes, and in order."""
+    """Files or parameters of a step by name, as attributes."""
 
     def __getattr__(self, name: str) -> Any:
         try:
             return self[name]
         except KeyError:
             raise AttributeError(name) from None
-
-    @property
-    def every(self) -> list[str]:
-        """All files, in order."""
-        return [file for files in self.values() for file in as_list(files)]
 
 
 def make(plan: Plan, name: str, cores: int) -> None:

@@ -1,6 +1,5 @@
 """What the levels cost in accuracy (docs/accuracy.md), and which modes the stress counts."""
 
-from evidence.blade_runs import DECIDING_SOURCES
 from evidence.plan import MADE, Item, table
 
 from plan.runs import ALL_SPEEDS, DECIDING
@@ -15,7 +14,6 @@ EVIDENCE = [
             {"runs": file},
             ALL_SPEEDS.models(blade),
             {"blade": blade, "configuration": DECIDING},
-            sources=DECIDING_SOURCES,
             # the finest mesh takes 3.4 GB
             alone=True,
         )
@@ -30,6 +28,5 @@ EVIDENCE = [
         "evidence.stress_band.table_and_picture",
         {"table": table("stress_band"), "picture": "docs/stress_band.png"},
         params={"configuration": DECIDING},
-        sources=DECIDING_SOURCES,
     ),
 ]

@@ -9,7 +9,7 @@ BARE = [f"{kind}_direct" for kind in ("twice", "friction", "elastic")]
 # on the bare casing all speeds count, on the lining those about 1B/4 of all blades, with carried motions
 COARSE = [{"start": 750, "stop": 2000, "step": 50}]
 ABOUT_1B_4 = [{"start": 1540, "stop": 1780, "step": 10}]
-CARRIED = {"from_rad_s": 1540, "to_rad_s": 1780, "step_rad_s": 10, "dwell": {"range_speeds": 0}}
+CARRIED = {"from_rad_s": 1540, "to_rad_s": 1780, "step_rad_s": 5, "dwell": {"range_speeds": 0}}
 
 
 def tried(name, lined, bare, **changes):
@@ -21,13 +21,7 @@ def tried(name, lined, bare, **changes):
             "scenes": [*lined, *bare],
             "speeds": COARSE,
             "speeds_for": [{"scenes": lined, "speeds": ABOUT_1B_4}],
-            "second_motions": {
-                "scenes": lined,
-                "from_rad_s": 1540,
-                "to_rad_s": 1780,
-                "step_rad_s": 5,
-                "dwell": {"range_speeds": 0},
-            },
+            "second_motions": {"scenes": lined, **CARRIED},
             **changes,
         },
     )

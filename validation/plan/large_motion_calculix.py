@@ -1,6 +1,5 @@
 """Large motion against CalculiX (docs/large_motion.md)."""
 
-from evidence.blade_runs import DECIDING_SOURCES
 from evidence.plan import Item, table
 
 from plan.runs import BLADES, DECIDING
@@ -10,12 +9,10 @@ EVIDENCE = [
         "evidence.large_motion_calculix.static",
         {"table": table("large_motion_calculix")},
         params={"configuration": DECIDING, "blades": BLADES},
-        sources=DECIDING_SOURCES,
     ),
     Item(
         "evidence.large_motion_calculix.decay",
         {"table": table("large_motion_decay")},
         params={"configuration": DECIDING, "blade": "Ref"},
-        sources=DECIDING_SOURCES,
     ),
 ]

@@ -1,6 +1,5 @@
 """The lining by its material (docs/lining.md)."""
 
-from evidence.blade_runs import DECIDING_SOURCES
 from evidence.plan import MADE, Item, table
 
 from plan.runs import DECIDING
@@ -12,15 +11,9 @@ EVIDENCE = [
         "evidence.lining.limits",
         {"table": table("lining_limits")},
         params={"configuration": DECIDING, "blades": ("Ref", "CS50")},
-        sources=DECIDING_SOURCES,
     ),
     *(
-        Item(
-            "evidence.lining.contact_lengths_of_blade",
-            {"lengths": file},
-            params={"configuration": DECIDING, "blade": blade},
-            sources=DECIDING_SOURCES,
-        )
+        Item("evidence.lining.contact_lengths_of_blade", {"lengths": file}, params={"configuration": DECIDING, "blade": blade})
         for blade, file in LENGTHS.items()
     ),
     Item(
