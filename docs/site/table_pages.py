@@ -6,7 +6,7 @@ from pathlib import Path
 from pkgutil import resolve_name
 
 ROOT = Path(__file__).parent.parent.parent
-sys.path.append(str(ROOT / "validation"))
+sys.path += [str(ROOT / "docs/site"), str(ROOT / "validation")]
 
 from evidence import pages, tables  # noqa: E402
 from evidence.plan import TABLES, Plan  # noqa: E402
