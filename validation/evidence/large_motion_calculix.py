@@ -5,19 +5,14 @@ The meshes, the material and the loads are the same. CalculiX solves the full me
 
 from __future__ import annotations
 
-import re
-import shutil
-import subprocess
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
 from r37core.config import Settings
-from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
@@ -28,6 +23,7 @@ from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.simulate import Simulation
 
 from .blade_runs import mesh_of, reduced_model
+from .calculix import displacements
 from .configuration import settings_of
 from .tables import write_table
 
@@ -168,17 +164,9 @@ class CalculixBlade:
 
     def run(self, steps: Sequence[str]) -> np.ndarray:
         """Cylindrical displacement (m) of the leading edge at each output, shape (outputs, 3)."""
-        if not shutil.which("ccx"):
-            raise FileNotFoundError("large_motion_calculix needs CalculiX: apt-get install calculix-ccx")
         leading = int(self._mesh.node_set(EDGE)[0])
-        with TemporaryDirectory() as folder:
-            deck = Path(folder) / "mesh.inp"
-            write_abaqus(self._mesh, deck, self._material, "large motion")
-            lines = deck.read_text(encoding="ascii").splitlines()
-            begun = lines[: lines.index("*STEP")]
-            deck.write_text("\n".join([*begun, "*NSET, NSET=LEADING", f"{leading + 1},", *steps]) + "\n", encoding="ascii")
-            subprocess.run(["ccx", "mesh"], cwd=folder, check=True, capture_output=True)
-            return cylindrical_rows((Path(folder) / "mesh.dat").read_text(encoding="ascii"), self._mesh.points[leading])
+        rows = displacements(self._mesh, self._material, ["*NSET, NSET=LEADING", f"{leading + 1},", *steps])
+        return rows @ to_cylindrical(self._mesh.points[leading]).T
 
     def bent(self, load: np.ndarray) -> Bent:
         """The leading edge under forces (N) on all nodes, shape (nodes, 3)."""
@@ -205,12 +193,6 @@ def to_cylindrical(point: np.ndarray) -> np.ndarray:
     """Turns a displacement at a `point` into its radial, tangential and axial parts, shape (3, 3)."""
     x, y = point[:2] / np.hypot(*point[:2])
     return np.array([[x, y, 0.0], [-y, x, 0.0], [0.0, 0.0, 1.0]])
-
-
-def cylindrical_rows(printed: str, point: np.ndarray) -> np.ndarray:
-    """Radial, tangential and axial displacement (m) of a node at a `point` (m), from the rows that CalculiX has printed."""
-    rows = re.findall(r"^ +\d+ +(\S+) +(\S+) +(\S+) *$", printed, re.MULTILINE)
-    return np.array(rows, dtype=float) @ to_cylindrical(point).T
 
 
 def period_of(times: np.ndarray, motion: np.ndarray) -> float:

@@ -5,8 +5,10 @@ import shutil
 import numpy as np
 import pytest
 from box_mesh import box_mesh
-from evidence.large_motion_calculix import Bent, CalculixBlade, cells, cylindrical_rows, period_of
+from evidence.calculix import printed
+from evidence.large_motion_calculix import Bent, CalculixBlade, cells, period_of, to_cylindrical
 
+from r37core.base.io import InputFileError
 from r37core.fem.material import Material
 
 PRINTED = """
@@ -18,7 +20,8 @@ PRINTED = """
 
 def test_printed_displacements_are_turned():
     """A node on the y axis moves outwards by 2 mm; the tangent there is -x."""
-    np.testing.assert_allclose(cylindrical_rows(PRINTED, np.array([0.0, 0.3, 0.1])), [[2e-3, 0.0, 1e-3]], atol=1e-18)
+    turned = printed(PRINTED) @ to_cylindrical(np.array([0.0, 0.3, 0.1])).T
+    np.testing.assert_allclose(turned, [[2e-3, 0.0, 1e-3]], atol=1e-18)
 
 
 def test_the_larger_difference_of_both_senses_counts():
@@ -45,5 +48,5 @@ def test_a_thin_beam_bends_as_the_linear_one_where_the_force_is_small():
 
 def test_calculix_that_is_missing_is_reported_by_name(monkeypatch):
     monkeypatch.setattr(shutil, "which", lambda program: None)
-    with pytest.raises(FileNotFoundError, match="calculix-ccx"):
+    with pytest.raises(InputFileError, match="calculix-ccx"):
         CalculixBlade(box_mesh(0.2, 0.002, 0.01, (4, 1, 1)), Material(200e9, 8000.0, 0.0)).run([])
