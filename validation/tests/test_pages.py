@@ -6,9 +6,12 @@ import shutil
 
 import pytest
 from conftest import CHECKOUT
+from evidence.configuration import settings_of
 from evidence.pages import Pages, markdown, renewed
 from evidence.tables import read_table, write_table
 from workflow_runs import snakemake
+
+from r37core.config.remarks import remarks_at_end
 
 PAGES = Pages(CHECKOUT)
 
@@ -97,3 +100,11 @@ def test_every_table_and_picture_has_a_rule(tmp_path):
     for file in made:
         (tmp_path / file).unlink(missing_ok=True)
     snakemake(tmp_path, "-s", "validation/Snakefile", "-n", "--quiet", "all")
+
+
+def test_the_remark_on_rigid_casings_has_the_numbers_of_the_table():
+    """The worse of two blades, in the region that decides."""
+    rows = {tuple(row[:2]): row[4] for row in read_table(CHECKOUT / "validation/tables/stress_band.csv")}
+    usual, elastic = (rows["S100, bare, 1867 rad/s", case] for case in ("as shipped", "elastic casing"))
+    remark = next(text for text in remarks_at_end(settings_of(CHECKOUT, scenes=["direct"])) if "rigid" in text)
+    assert f"of S100 at 1867 rad/s from {usual} to {elastic} times yield" in remark
