@@ -46,7 +46,7 @@ lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 	$(BIN)/python -m snakemake --lint
 
 # the numbers of the engine first: what is behind them is out of date only if one of them moves
-validation: $(VENV)/.docs ## tables and pictures of the pages that are out of date; EVERY=true also what is not, from nothing in a fresh clone, in two hours
+validation: $(VENV)/.docs ## tables and pictures of the pages that are out of date; EVERY=true all of them, in two hours
 	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) engine
 	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) $(if $(EVERY),--config every=$(EVERY))
 
