@@ -97,13 +97,16 @@ def checks(input: Any, output: Any, params: Any) -> None:
     for scene, words in SCENES.items():
         rows[words, "all speeds, worst motion"] = dict(ranking.loc[scene, WORST])
         rows[words, "all speeds, from rest"] = dict(ranking.loc[scene, LENGTH])
+        files = [file for file in input.base if _scene_of(file) == scene]
+        for step, speeds in {"5": every["speed"].values, "50": coarse}.items():
+            rows[words, f"every {step} rad/s, from rest"] = _lengths(files, speeds)
         for name, part in REGIONS.items():
             rows[words, f"{name}, from rest"] = dict(ranking.loc[scene, LENGTH.replace("_rad", f"{part}_rad")])
-    responses = {"every 50 rad/s, from rest": input.base, "level draft": input.draft}
+    responses = {"level draft": list(input.draft)}
     for file in input.bare:
         responses.setdefault(TRIED[_scene_of(file).split("_")[0]], []).append(file)
     for name, files in responses.items():
-        rows[SCENES[BARE], name] = {_blade_of(file): _length_at(read_judged(file), coarse) for file in files}
+        rows[SCENES[BARE], name] = _lengths(files, coarse)
     cases = read_dataset(input.lined)
     speeds = cases["speed"].values
     motions = {"1540 to 1780 rad/s every 5": (every, LINING), "level draft": (read_dataset(input.lined_draft), LINING)}
@@ -117,8 +120,9 @@ def checks(input: Any, output: Any, params: Any) -> None:
     write_table(list(text.columns), text.astype(str).values.tolist(), output.table)
 
 
-def _length_at(response: xr.Dataset, speeds: np.ndarray) -> float:
-    return exceedance_of(response.sel(speed=speeds)).length(MOST_REVOLUTIONS)
+def _lengths(files: list[str], speeds: np.ndarray) -> dict[str, float]:
+    """Lengths of blades from rest, at some of the speeds of their responses."""
+    return {_blade_of(file): exceedance_of(read_judged(file).sel(speed=speeds)).length(MOST_REVOLUTIONS) for file in files}
 
 
 def _worst_lengths(motions: xr.Dataset, scene: str, speeds: np.ndarray) -> dict[str, float]:
@@ -147,14 +151,7 @@ def interactions(input: Any, output: Any, params: Any) -> None:
             rows.append([blade, f"{crossing:.0f}", words, f"{sum(part.length for part in ranges):.0f}", f"{largest:.1f}"])
             titles = [interaction_title(mode, order) for mode, order in zip(top["mode"], top["engine_order"], strict=True)]
             rows[-1] += [*titles, *(f"{speed:.0f}" for speed in top["peak_speed_rad_s"])] or ["-", "-"]
-        head = [
-            "blade",
-            "1B/4 at (rad/s)",
-            "three longest ranges above yield (rad/s)",
-            "all ranges (rad/s)",
-            "largest motion (mm)",
-        ]
-        write_table([*head, "largest from rest", "at (rad/s)"], rows, file)
+        write_table(list(INTERACTIONS), rows, file)
 
 
 def large_motion(input: Any, output: Any, params: Any) -> None:
@@ -166,9 +163,7 @@ def large_motion(input: Any, output: Any, params: Any) -> None:
     rows: dict[str, dict[str, str]] = {}
     for blade, scene in runs["linear"]:
         texts = [_texts(of[blade, scene]) for of in runs.values()]
-        for what, pair in zip(
-            ("largest motion (mm)", "at (rad/s)", "above yield (rad/s)"), zip(*texts, strict=True), strict=True
-        ):
+        for what, pair in zip(MOTION, zip(*texts, strict=True), strict=True):
             rows.setdefault(blade, {})[f"{SCENES[scene]}: {what}"] = " / ".join(pair)
     _write(pd.DataFrame.from_dict(rows, orient="index"), output.table)
     figure, panels = plt.subplots(

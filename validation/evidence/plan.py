@@ -73,6 +73,7 @@ class Item:
     params: Mapping[str, Any] = field(default_factory=dict)
     sources: Sequence[str] = ()
     alone: bool = False
+    memory_mb: int = 1000
 
     @property
     def name(self) -> str:
@@ -147,6 +148,11 @@ class Plan:
         """Whether a part takes all cores: every run does."""
         part = self.part(name)
         return isinstance(part, Run) or part.alone
+
+    def memory_mb(self, name: str) -> int:
+        """Memory that a part is planned with; a run has the machine for itself."""
+        part = self.part(name)
+        return part.memory_mb if isinstance(part, Item) else 0
 
     def _hash_of(self, name: str) -> str:
         return hashlib.sha256("\n".join(self._parts_of(self.part(name))).encode()).hexdigest()[:16]

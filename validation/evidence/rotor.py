@@ -13,14 +13,25 @@ from r37core.time_integration.status import RunStatus
 from .tables import write_table
 
 SINGLE = "single"
-KINDS = {"equal": "36 equal blades", "mistuned_1": "1% of mistuning", "mistuned_1_other": "1%, another draw"}
+BLADES = ("Ref", "CS100")
+"""Blades of the rotors: without sweep, and with most speeds above yield on a lining."""
+
+KINDS = {
+    "equal": "36 equal blades",
+    "mistuned_1": "1% of mistuning",
+    "mistuned_1_other": "1%, another draw",
+    "mistuned_1_third": "1%, a third draw",
+}
 """Rotors of validation/decisions.yaml."""
 
 
 def kinds(input: Any, output: Any, params: Any) -> None:
-    """Speeds above yield of a single blade and of rotors of it. Inputs: files by scene. Output: table."""
-    rows = [["a single blade", *_single(input[SINGLE])], *([words, *_rotor(input[kind])] for kind, words in KINDS.items())]
-    write_table(["rotor", "above yield (rad/s)", "largest stress / yield", "most blades at once"], rows, output.table)
+    """Speeds above yield of a single blade and of rotors of it. Inputs: files of BLADES by scene. Output: table."""
+    rows = []
+    for place, blade in enumerate(BLADES):
+        rows.append([blade, "a single blade", *_single(input[SINGLE][place])])
+        rows += [[blade, words, *_rotor(input[kind][place])] for kind, words in KINDS.items()]
+    write_table(["blade", "rotor", "above yield (rad/s)", "largest stress / yield", "most blades at once"], rows, output.table)
 
 
 def _single(file: str) -> list[str]:

@@ -2,10 +2,9 @@
 
 from evidence.plan import MADE, Item, table
 
-from plan.runs import ALL_SPEEDS, DECIDING
+from plan.runs import ALL_SPEEDS, BLADES, DECIDING
 
-# without sweep, and with most of it
-PATCHES = {blade: f"{MADE}/accuracy_{blade}.csv" for blade in ("Ref", "S100")}
+PATCHES = {blade: f"{MADE}/accuracy_{blade}.csv" for blade in BLADES}
 
 EVIDENCE = [
     *(
@@ -14,8 +13,8 @@ EVIDENCE = [
             {"runs": file},
             ALL_SPEEDS.models(blade),
             {"blade": blade, "configuration": DECIDING},
-            # the finest mesh takes 3.4 GB
-            alone=True,
+            # of the finest mesh
+            memory_mb=3600,
         )
         for blade, file in PATCHES.items()
     ),

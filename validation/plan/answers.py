@@ -53,7 +53,7 @@ EVIDENCE = [
         {"table": table("answer_checks")},
         {
             "ranking": f"{ALL_SPEEDS.folder}/ranking.csv",
-            "base": ALL_SPEEDS.responses(BLADES, "direct"),
+            "base": ALL_SPEEDS.responses(BLADES, *SCENES),
             "bare": [file for scene in BARE for file in CASES.responses(BLADES, scene)],
             "draft": COARSER.responses(BLADES, "direct"),
             **MOTIONS,

@@ -2,9 +2,9 @@
 
 from evidence.plan import MADE, Item, table
 
-from plan.runs import DECIDING
+from plan.runs import BLADES, DECIDING
 
-LENGTHS = {blade: f"{MADE}/lining_contact_length_{blade}.csv" for blade in ("Ref", "L50", "S100")}
+LENGTHS = {blade: f"{MADE}/lining_contact_length_{blade}.csv" for blade in BLADES}
 
 EVIDENCE = [
     Item(

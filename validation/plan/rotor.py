@@ -1,7 +1,7 @@
 """Rotors against single blades about 1B/4 (docs/rotor.md)."""
 
 from evidence.plan import Item, Run, table
-from evidence.rotor import KINDS, SINGLE
+from evidence.rotor import BLADES, KINDS, SINGLE
 
 from plan.runs import DECIDING
 
@@ -11,17 +11,11 @@ ROTORS = Run(
         **DECIDING,
         "scenes_file": "validation/decisions.yaml",
         "scenes": [SINGLE, *KINDS],
-        "blades": ["Ref"],
+        "blades": list(BLADES),
         "fidelity": "draft",
-        "speeds": [{"start": 1668, "stop": 1778, "step": 10}],
-        # slower blades have their interactions at lower speeds
-        "speeds_for": [
-            {
-                "blades": ["Ref"],
-                "scenes": ["mistuned_1", "mistuned_1_other"],
-                "speeds": [{"start": 1618, "stop": 1778, "step": 10}],
-            }
-        ],
+        # of mistuned rotors, too: slower blades have their interactions at lower speeds
+        "speeds": [{"start": 1618, "stop": 1778, "step": 5}],
+        "speeds_for": [{"blades": ["CS100"], "speeds": [{"start": 1308, "stop": 1468, "step": 5}]}],
     },
 )
 
@@ -30,8 +24,8 @@ EVIDENCE = [
         "evidence.rotor.kinds",
         {"table": table("rotor_kinds")},
         {
-            SINGLE: f"{ROTORS.folder}/Ref/{SINGLE}/response.nc",
-            **{kind: f"{ROTORS.folder}/Ref/{kind}/rotor.nc" for kind in KINDS},
+            SINGLE: ROTORS.responses(BLADES, SINGLE),
+            **{kind: [f"{ROTORS.folder}/{blade}/{kind}/rotor.nc" for blade in BLADES] for kind in KINDS},
         },
     ),
     Item(

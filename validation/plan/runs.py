@@ -19,9 +19,8 @@ DECIDING = {
 }
 """What a decision is made on: patches, large displacements, runs until they have settled, stress of rotation included."""
 
+# the one set of runs: from rest every 2.5 rad/s; from rest, carried up and carried down every 5 rad/s, each as long
 CARRIED = {"from_rad_s": 750, "to_rad_s": 2000, "step_rad_s": 5, "dwell": {"range_speeds": 0}}
-
-# the one set of runs: from rest at all speeds, and carried up and down, each as long
 ALL_SPEEDS = Run(
-    "all_speeds", keys={**DECIDING, "speeds": [{"start": 750, "stop": 2000, "step": 5}], "second_motions": CARRIED}
+    "all_speeds", keys={**DECIDING, "speeds": [{"start": 750, "stop": 2000, "step": 2.5}], "second_motions": CARRIED}
 )

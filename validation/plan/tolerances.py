@@ -8,10 +8,10 @@ MEMBERS = Run(
     ("tolerances",),
     {
         "scenes_file": "validation/deciding.yaml",
-        "blades": ["Ref"],
+        "blades": ["Ref", "CS100"],
         "fidelity": "draft",
         "speeds": [{"start": 1660, "stop": 1888, "step": 12}],
-        "speeds_for": [],
+        "speeds_for": [{"blades": ["CS100"], "speeds": [{"start": 1348, "stop": 1548, "step": 12}]}],
     },
 )
 

@@ -35,11 +35,13 @@ def test_a_rotor_is_above_yield_where_its_worst_blade_is(tmp_path):
     content = {"blade_max_von_mises_ever": (("speed", "blade_number"), stress), "blades_ever_above_yield": ("speed", shares)}
     content |= {"status": ("speed", np.zeros(4, "i1")), "yield_stress": 1.0}
     xr.Dataset(content, {"speed": speeds, "blade_number": [1, 2]}).to_netcdf(tmp_path / "rotor.nc")
-    files = Named(dict.fromkeys(rotor.KINDS, str(tmp_path / "rotor.nc")), single=response(tmp_path / "single.nc"))
+    files = Named(
+        {kind: [str(tmp_path / "rotor.nc")] * 2 for kind in rotor.KINDS}, single=[response(tmp_path / "single.nc")] * 2
+    )
     rotor.kinds(files, Named(table=tmp_path / "table.csv"), Named())
     _, single, equal, *_ = read_table(tmp_path / "table.csv")
-    assert single == ["a single blade", "23", "2.00", "1"]
-    assert equal == ["36 equal blades", "22", "3.00", "2"]
+    assert single == ["Ref", "a single blade", "23", "2.00", "1"]
+    assert equal == ["Ref", "36 equal blades", "22", "3.00", "2"]
 
 
 def test_lengths_of_runs_next_to_each_other(tmp_path):
