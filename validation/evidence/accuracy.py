@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from r37core.base.io import atomic_write
@@ -128,13 +127,11 @@ def _levels(runs: Runs) -> tuple[list[str], list[list[str]]]:
         errors = [runs.compared(case, *pair) for pair in (("lining",), ("bare",), ("bare", "stress"))]
         medians = [f"{percent(median)} ({blade})" for blade, median in map(worst, errors)]
         largest = " / ".join(percent(runs.compared(case, scene).max()) for scene in ("lining", "bare"))
-        steps, seconds = (
-            [runs.of(case, scene, quantity).median() for scene in ("lining", "bare")] for quantity in ("step", "cpu_s")
-        )
+        steps = [runs.of(case, scene, "step").median() for scene in ("lining", "bare")]
         words = [f"`{case}`", f"{steps[0]:.1f} / {steps[1]:.1f}"] if case in LEVELS else [f"{case} (`standard`)", ""]
-        rows.append([*words, *medians, largest, f"{np.mean(seconds):.2f}"])
+        rows.append([*words, *medians, largest])
     head = ["level", "step, lining / bare (us)", "lining: rms", "bare casing: rms", "bare casing: stress"]
-    return [*head, "largest error of rms, lining / bare", "CPU (s)"], rows
+    return [*head, "largest error of rms, lining / bare"], rows
 
 
 def _by_blade(runs: Runs, cases: tuple[str, ...]) -> tuple[list[str], list[list[str]]]:

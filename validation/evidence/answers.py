@@ -13,7 +13,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
 from r37core.results.closing import interaction_title
 from r37core.results.columns import MOST_REVOLUTIONS
-from r37core.results.exceedance import Exceedance, exceedance_of
+from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of
 from r37core.results.measures import motion
 from r37core.results.other_motions import swept, worst_exceedance
 from r37core.results.ranking import read_ranking
@@ -143,15 +143,26 @@ def interactions(input: Any, output: Any, params: Any) -> None:
         for blade in _blades(motions):
             ranges = _worst(motions, blade, scene).ranges(MOST_REVOLUTIONS)
             longest = sorted(sorted(ranges, key=lambda part: -part.length)[:_LONGEST], key=lambda part: part.begin)
-            words = ", ".join(f"{part.begin:.0f} to {part.end:.0f} ({part.length:.0f})" for part in longest)
             own = summary[(summary["blade"] == blade) & (summary["scene"] == scene)]
+            words = ", ".join(f"{part.begin:.0f} to {part.end:.0f} ({_named(part, own)})" for part in longest)
             top = own.sort_values("peak_motion_m").tail(1)
             largest = 1e3 * float(motions.sel(blade=blade, scene=scene)["motion_mean"].max())
             crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=4))
             rows.append([blade, f"{crossing:.0f}", words, f"{sum(part.length for part in ranges):.0f}", f"{largest:.1f}"])
-            titles = [interaction_title(mode, order) for mode, order in zip(top["mode"], top["engine_order"], strict=True)]
-            rows[-1] += [*titles, *(f"{speed:.0f}" for speed in top["peak_speed_rad_s"])] or ["-", "-"]
+            rows[-1] += [*_titles(top), *(f"{speed:.0f}" for speed in top["peak_speed_rad_s"])] or ["-", "-"]
         write_table(list(INTERACTIONS), rows, file)
+
+
+def _named(part: SpeedRange, interactions: pd.DataFrame) -> str:
+    """Length of a range, and the interaction from rest that most of its speeds are of, if one is."""
+    begin, end = (interactions[f"some_revolutions_{side}_rad_s"] for side in ("from", "to"))
+    common = np.minimum(end, part.end) - np.maximum(begin, part.begin)
+    names = _titles(interactions.loc[common[common >= 0.0].nlargest(1).index])
+    return ": ".join([f"{part.length:.0f}", *names])
+
+
+def _titles(interactions: pd.DataFrame) -> list[str]:
+    return [interaction_title(*pair) for pair in zip(interactions["mode"], interactions["engine_order"], strict=True)]
 
 
 def large_motion(input: Any, output: Any, params: Any) -> None:

@@ -3,8 +3,11 @@
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from r37core.base.dataset_file import read_dataset
+from r37core.figures import style
+from r37core.figures.style import plt
 from r37core.results.danger import ratio_to_yield
 from r37core.results.exceedance import length_of, ranges_above
 from r37core.results.regions import read_judged
@@ -12,10 +15,10 @@ from r37core.time_integration.status import RunStatus
 
 from .tables import write_table
 
-SINGLE = "single"
 BLADES = ("Ref", "CS100")
 """Blades of the rotors: without sweep, and with most speeds above yield on a lining."""
 
+SINGLE = "single"
 KINDS = {
     "equal": "36 equal blades",
     "mistuned_1": "1% of mistuning",
@@ -24,29 +27,35 @@ KINDS = {
 }
 """Rotors of validation/decisions.yaml."""
 
+COLUMNS = ("blade", "rotor", "above yield (rad/s)", "largest stress / yield", "most blades at once")
+
 
 def kinds(input: Any, output: Any, params: Any) -> None:
-    """Speeds above yield of a single blade and of rotors of it. Inputs: files of BLADES by scene. Output: table."""
+    """Speeds above yield of a single blade and of rotors of it. Inputs: files of BLADES by scene. Outputs: table, picture."""
     rows = []
-    for place, blade in enumerate(BLADES):
-        rows.append([blade, "a single blade", *_single(input[SINGLE][place])])
-        rows += [[blade, words, *_rotor(input[kind][place])] for kind, words in KINDS.items()]
-    write_table(["blade", "rotor", "above yield (rad/s)", "largest stress / yield", "most blades at once"], rows, output.table)
+    figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.2, 5.4), layout="constrained")
+    for place, (blade, axes) in enumerate(zip(BLADES, panels, strict=True)):
+        single = ratio_to_yield(read_judged(input[SINGLE][place]))
+        rows.append([blade, "a single blade", *_length(single), "1"])
+        axes.plot(single["speed"], single, "o-", color="black", markersize=3, label="a single blade")
+        for kind, words in KINDS.items():
+            rotor = read_dataset(input[kind][place])
+            worst, most = _worst(rotor), rotor["blades_ever_above_yield"].max() * rotor.sizes["blade_number"]
+            rows.append([blade, words, *_length(worst), f"{float(most):.0f}"])
+            axes.plot(worst["speed"], worst, ".-", markersize=4, linewidth=1.0, label=f"worst of {words}")
+        axes.axhline(1.0, color="0.3", linewidth=0.9, linestyle="--", label="yield")
+        axes.set(title=blade, ylabel="largest stress / yield")
+    panels[-1].set_xlabel(style.SPEED_LABEL)
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.save(figure, output.picture)
+    write_table(list(COLUMNS), rows, output.table)
 
 
-def _single(file: str) -> list[str]:
-    ratio = ratio_to_yield(read_judged(file))
-    return [*_length(ratio["speed"].values, ratio.values), "1"]
-
-
-def _rotor(file: str) -> list[str]:
-    """Length, largest stress and blades at once of a rotor; infinite where the run diverged."""
-    rotor = read_dataset(file)
+def _worst(rotor: xr.Dataset) -> xr.DataArray:
+    """Largest stress of any blade over yield at each speed; infinite where the run diverged."""
     worst = rotor["blade_max_von_mises_ever"].max("blade_number") / rotor["yield_stress"]
-    ratio = worst.where(rotor["status"] != RunStatus.DIVERGED, np.inf)
-    most = (rotor["blades_ever_above_yield"] * rotor.sizes["blade_number"]).max()
-    return [*_length(rotor["speed"].values, ratio.values), f"{float(most):.0f}"]
+    return worst.where(rotor["status"] != RunStatus.DIVERGED, np.inf)
 
 
-def _length(speeds: np.ndarray, ratio: np.ndarray) -> list[str]:
-    return [f"{length_of(ranges_above(speeds, ratio, 1.0)):.0f}", f"{ratio.max():.2f}"]
+def _length(ratio: xr.DataArray) -> list[str]:
+    return [f"{length_of(ranges_above(ratio['speed'].values, ratio.values, 1.0)):.0f}", f"{float(ratio.max()):.2f}"]

@@ -22,15 +22,10 @@ ROTORS = Run(
 EVIDENCE = [
     Item(
         "evidence.rotor.kinds",
-        {"table": table("rotor_kinds")},
+        {"table": table("rotor_kinds"), "picture": "docs/rotor.png"},
         {
             SINGLE: ROTORS.responses(BLADES, SINGLE),
             **{kind: [f"{ROTORS.folder}/{blade}/{kind}/rotor.nc" for blade in BLADES] for kind in KINDS},
         },
-    ),
-    Item(
-        "evidence.pictures.of_run",
-        {"picture": "docs/rotor.png"},
-        {"figure": f"{ROTORS.folder}/figures/rotor_Ref__mistuned_1.png"},
-    ),
+    )
 ]

@@ -38,10 +38,12 @@ def test_a_rotor_is_above_yield_where_its_worst_blade_is(tmp_path):
     files = Named(
         {kind: [str(tmp_path / "rotor.nc")] * 2 for kind in rotor.KINDS}, single=[response(tmp_path / "single.nc")] * 2
     )
-    rotor.kinds(files, Named(table=tmp_path / "table.csv"), Named())
+    output = Named(table=tmp_path / "table.csv", picture=tmp_path / "rotor.png")
+    rotor.kinds(files, output, Named())
     _, single, equal, *_ = read_table(tmp_path / "table.csv")
     assert single == ["Ref", "a single blade", "23", "2.00", "1"]
     assert equal == ["Ref", "36 equal blades", "22", "3.00", "2"]
+    assert output.picture.stat().st_size > 10_000
 
 
 def test_lengths_of_runs_next_to_each_other(tmp_path):

@@ -84,11 +84,14 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
         size = (_WIDTH, 0.9 + len(scenes) * (3.0 if len(scenes) < 3 else 2.4))
         figure, grid = plt.subplots(len(scenes), 1, figsize=size, sharex=True, sharey=True, squeeze=False)
         panels = dict(zip(scenes, grid.flat, strict=True))
-        grid[0, 0].set(xlim=(ran[0] - margin, ran[-1] + margin), ylim=(2.0 * strip, highest))
+        # the circles of what is higher stay below the upper scale
+        top = highest * (1.08 if rows["higher"].any() else 1.0)
+        grid[0, 0].set(xlim=(ran[0] - margin, ran[-1] + margin), ylim=(2.0 * strip, top))
         style.rpm_axis(grid[0, 0], most_ticks=6)
         grid[-1, 0].set_xlabel(style.SPEED_LABEL)
         for scene, axes in panels.items():
-            axes.set(title=style.scene_words(scene), ylabel="frequency (Hz)")
+            higher = ", at the upper edge: higher" if rows["higher"][rows["scene"] == scene].any() else ""
+            axes.set(title=f"{style.scene_words(scene)}{higher}", ylabel="frequency (Hz)")
             axes.grid(visible=False)
             _draw_modes(axes, campbell, dict.fromkeys([*NAMED_MODES, *rows["mode"][rows["scene"] == scene].dropna()]))
             if strip:
@@ -151,9 +154,6 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
     if rows.empty:
         style.say(axes, "no interaction was found")
         return
-    if rows["higher"].any():
-        corner: dict[str, Any] = {"ha": "right", "va": "top", "transform": axes.transAxes, "path_effects": _HALO}
-        axes.text(0.99, 0.97, "at the upper edge: higher", color="0.3", **corner)
     for blade in [blade for blade in colours if blade in set(rows["blade"])] if len(colours) > 1 else []:
         axes.scatter([], [], 30.0, color=colours[blade], label="other blades" if colours[blade] == _OTHERS else blade)
     for row in rows.to_dict("records"):
