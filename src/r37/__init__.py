@@ -2,7 +2,7 @@
 
 Blades, scenes and accuracy levels are those of the shipped configuration, or of your own (`config="config.yaml"`). Datasets
 have the variables, units and attributes of the workflow's files. All units are SI, and speeds are in rad/s unless a name ends
-in rpm. The structure of a blade takes minutes; it is kept in a cache folder (r37.calculation). The logger `r37` reports
+in rpm. The structure of a blade takes up to a minute; it is kept in a cache folder (r37.calculation). The logger `r37` reports
 the progress of a call (r37.stages).
 
 Bad input raises ConfigError, an unknown argument TypeError, a file that cannot be read InputFileError, and a blade that its

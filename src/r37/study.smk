@@ -10,7 +10,7 @@ module r37:
 use rule * from r37
 
 
-# one line on the progress, a server for the jobs, and last words
+# checks of what is asked for, one line on the progress, and last words
 onstart:
     r37.onstart()
 
