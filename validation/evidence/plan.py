@@ -7,6 +7,7 @@ parameters, the configuration of the runs that it reads, the items behind it and
 from __future__ import annotations
 
 import hashlib
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
@@ -65,6 +66,7 @@ class Item:
     """A step of the evidence: its function, as `evidence.coriolis.peaks`, the files that it makes and reads, and parameters.
 
     `alone`: on all cores. `sources`: files of the repository that it is made from, which count by their content.
+    `program`: one that it needs and that pip does not install.
     """
 
     step: str
@@ -74,6 +76,7 @@ class Item:
     sources: Sequence[str] = ()
     alone: bool = False
     memory_mb: int = 1000
+    program: str = ""
 
     @property
     def name(self) -> str:
@@ -148,6 +151,10 @@ class Plan:
         """Whether a part takes all cores: every run does."""
         part = self.part(name)
         return isinstance(part, Run) or part.alone
+
+    def without_program(self) -> dict[str, str]:
+        """Items that cannot be made here, by name, and the program that is not installed."""
+        return {item.name: item.program for item in self.items.values() if item.program and not shutil.which(item.program)}
 
     def memory_mb(self, name: str) -> int:
         """Memory that a part is planned with; a run has the machine for itself."""

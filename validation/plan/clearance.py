@@ -35,6 +35,7 @@ EVIDENCE = [
             "meshes": [f"{VARIANTS.folder}/{blade}/mesh.vtu" for blade in BLADES],
         },
         {"blades": BLADES},
+        program="ccx",
     ),
     Item(
         "evidence.clearance.effect",

@@ -9,5 +9,6 @@ EVIDENCE = [
         "evidence.explorer_picture.picture",
         {"picture": "docs/explorer.png", "contents": "docs/site/explorer.json"},
         {"page": f"{MAIN.folder}/explorer.html"},
+        program="chromium",
     )
 ]

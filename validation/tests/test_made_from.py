@@ -91,3 +91,8 @@ def test_a_run_uses_the_entries_that_it_names_and_their_bases():
     assert used(entries, "c") == [("c", {})]
     # those of a family have other names
     assert used(entries, ["a", "c_0p1"]) == used(entries, "all") == sorted(entries.items())
+
+
+def test_what_needs_a_program_that_is_missing_is_left_out(committed):
+    more = [Item("evidence.steps.other", {"file": f"results/evidence/{name}.csv"}, program=name) for name in ("no_such", "sh")]
+    assert committed[1](more=more).without_program() == {"no_such": "no_such"}
