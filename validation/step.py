@@ -3,10 +3,12 @@
 from evidence.made_from import note
 from evidence.plan import Item, Plan, make
 
+from r37core.base.process_wide import one_thread
 from r37core.console.failures import reported
 
 plan, name = Plan(), snakemake.wildcards.name
-with reported(name, snakemake.log[0]):
+# the same bits on any number of cores
+with reported(name, snakemake.log[0]), one_thread():
     make(plan, name, snakemake.threads)
     part = plan.part(name)
     if isinstance(part, Item):
