@@ -185,8 +185,9 @@ def large_motion(input: Any, output: Any, params: Any) -> None:
             for name, of in runs.items():
                 axes.plot(of[blade, scene]["speed"], 1e3 * np.asarray(motion(of[blade, scene])), label=name, linewidth=1.2)
             axes.set_title(f"{blade}, {SCENES[scene]}")
-            axes.set_ylim(bottom=0.0)
             axes.grid(alpha=0.3)
+        # of all curves of the row
+        row[0].set_ylim(bottom=0.0)
         row[0].set_ylabel("motion, rms (mm)")
     for axes in panels[-1]:
         axes.set_xlabel("speed (rad/s)")
