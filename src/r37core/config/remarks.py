@@ -176,7 +176,7 @@ def remarks_at_end(settings: Settings) -> list[str]:
     rigid = [name for name, entry in casings.items() if entry.lining is None and not entry.casing.elastic]
     remark = (
         f"{_first_few(rigid)}: the bare casing is rigid; an elastic one took the largest stress of S100 at 1867 rad/s from "
-        "4.32 to 1.83 times yield (docs/accuracy.md#which-modes-the-stress-counts): casing.ring (docs/elastic_casing.md)"
+        "4.33 to 1.87 times yield (docs/accuracy.md#which-modes-the-stress-counts): casing.ring (docs/elastic_casing.md)"
     )
     return [*remarks_on_points(settings), *([remark] if rigid else [])]
 
