@@ -13,7 +13,7 @@ EVIDENCE = [
             {"runs": file},
             ALL_SPEEDS.models(blade),
             {"blade": blade, "configuration": DECIDING},
-            # of the finest mesh
+            # the model of the finest mesh takes 3 GB
             memory_mb=3600,
         )
         for blade, file in PATCHES.items()

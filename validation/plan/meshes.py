@@ -6,7 +6,7 @@ from evidence.plan import Item, table
 SOURCES = ["config/blades.yaml", "config/config.yaml", "config/fidelity.yaml", "config/scenes.yaml"]
 
 EVIDENCE = [
-    # of the finest mesh
+    # the model of the finest mesh takes 3 GB
     Item("evidence.meshes.density", {"table": table("mesh_density")}, sources=SOURCES, memory_mb=3600),
     Item("evidence.meshes.remeshed", {"table": table("remeshed")}, params={"blades": ["Ref"]}, sources=SOURCES),
 ]

@@ -13,7 +13,7 @@ ROTORS = Run(
         "scenes": [SINGLE, *KINDS],
         "blades": list(BLADES),
         "fidelity": "draft",
-        # of mistuned rotors, too: slower blades have their interactions at lower speeds
+        # slower blades of a mistuned rotor have their interactions at lower speeds
         "speeds": [{"start": 1618, "stop": 1778, "step": 5}],
         "speeds_for": [{"blades": ["CS100"], "speeds": [{"start": 1308, "stop": 1468, "step": 5}]}],
     },

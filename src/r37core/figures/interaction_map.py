@@ -138,7 +138,7 @@ def _draw_modes(axes: Axes, campbell: xr.Dataset, names: Iterable[str]) -> None:
         for edge in (low, high):
             axes.plot(campbell["speed"], edge, look, color="0.35", linewidth=0.9, zorder=1.1)
         place = (left, float(np.interp(left, campbell["speed"], high)))
-        # with room for the name
+        # the name of a mode at the upper edge would stand above the panel
         if place[1] < 0.95 * highest:
             above: dict[str, Any] = {"textcoords": "offset points", "xytext": (3, 2), "va": "bottom"}
             axes.annotate(mode, place, fontweight="bold", color="0.2", path_effects=_HALO, **above)

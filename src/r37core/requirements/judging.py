@@ -89,7 +89,7 @@ COLUMNS = (
 
 `value` and `limit` are in the `unit`; the value is NaN where it is not known, for the reason in `note`. `value_lowest`,
 `value_highest`: of everything that was tried, with the error of mesh and step and two standard deviations. `margin`: distance
-from the limit, above 0 where the requirement is met. `from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard
+from the limit, below 0 where the requirement is broken. `from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard
 deviation of the value by friction, step and mesh, of a length also by chance and distance of the speeds; `members`,
 `share_of_members`: number of members under tolerances, and the share of them that meets it; `margin_worst_motion`: margin of
 the worst of all motions; NaN each where not run. `further_runs`: how many there were, NaN of what is not judged by runs.
