@@ -38,7 +38,7 @@ INTERACTIONS = (
     *("blade", "1B/4 at (rad/s)", "three longest ranges above yield (rad/s)", "all ranges (rad/s)"),
     *("largest motion (mm)", "largest from rest", "at (rad/s)"),
 )
-"""Columns of the tables of interactions: ranges and motion by the worst motion, the last two from rest."""
+"""Columns of the tables of interactions: ranges and motion from rest or by the worst motion, the last two from rest."""
 
 MOTION = ("largest motion (mm)", "at (rad/s)", "above yield (rad/s)")
 """Columns of the table of large motion, for each contact."""
@@ -135,18 +135,24 @@ def _worst(motions: xr.Dataset, blade: str, scene: str) -> Exceedance:
 
 
 def interactions(input: Any, output: Any, params: Any) -> None:
-    """Longest ranges above yield by the worst motion. Inputs: motions, summary, campbell. Outputs: lining, bare, tables."""
+    """Longest ranges above yield, by the worst motion or, if longer in all, from rest at all speeds.
+
+    Inputs: motions, summary, campbell, base, responses from rest. Outputs: lining, bare, tables.
+    """
     motions, campbell = read_dataset(input.motions), read_dataset(input.campbell)
     summary = read_table(input.summary)
+    from_rest = {(_blade_of(file), _scene_of(file)): read_judged(file) for file in input.base}
     for scene, file in ((LINING, output.lining), (BARE, output.bare)):
         rows = []
         for blade in _blades(motions):
-            ranges = _worst(motions, blade, scene).ranges(MOST_REVOLUTIONS)
+            response = from_rest[blade, scene]
+            either = (_worst(motions, blade, scene), exceedance_of(response))
+            ranges = max(either, key=lambda worst: worst.length(MOST_REVOLUTIONS)).ranges(MOST_REVOLUTIONS)
             longest = sorted(sorted(ranges, key=lambda part: -part.length)[:_LONGEST], key=lambda part: part.begin)
             own = summary[(summary["blade"] == blade) & (summary["scene"] == scene)]
             words = ", ".join(f"{part.begin:.0f} to {part.end:.0f} ({_named(part, own)})" for part in longest)
             top = own.sort_values("peak_motion_m").tail(1)
-            largest = 1e3 * float(motions.sel(blade=blade, scene=scene)["motion_mean"].max())
+            largest = 1e3 * max(motion(response).max(), float(motions.sel(blade=blade, scene=scene)["motion_mean"].max()))
             crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=4))
             rows.append([blade, f"{crossing:.0f}", words, f"{sum(part.length for part in ranges):.0f}", f"{largest:.1f}"])
             rows[-1] += [*_titles(top), *(f"{speed:.0f}" for speed in top["peak_speed_rad_s"])] or ["-", "-"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -64,24 +63,20 @@ def reduced_model(
 
 
 def numbers_of_run(models: Models, speed: float, scene: Scene, choice: IntegrationChoice, *results: str) -> dict[str, Any]:
-    """A run's numbers, and `motion` (m), rms of the leading edge, `largest` (Pa), median of its largest stresses by region,
-    and `cpu_s`. NaN where its step is refused."""
-    begun = time.process_time()
+    """A run's numbers, and `motion` (m), rms of the leading edge, and `largest` (Pa), median of its largest stresses by region.
+
+    NaN where its step is refused.
+    """
     results = (*results, "stress", "static_stress")
     try:
         run = run_speed(
             models.contact, speed, scene, choice, results, stress=models.stress, spectrum_highest_order=1, wear_angles=500
         )
     except UnstableStepError:
-        return {
-            "motion": np.nan,
-            "largest": np.full(len(models.stress), np.nan),
-            "largest_penetration": np.nan,
-            "cpu_s": np.nan,
-        }
+        return {"motion": np.nan, "largest": np.full(len(models.stress), np.nan), "largest_penetration": np.nan}
     motion = float(np.hypot(*run["rms"][0, [0, 2]]))
     largest = np.median(run["revolution_von_mises"], axis=1)
-    return run | {"motion": motion, "largest": largest, "cpu_s": time.process_time() - begun}
+    return run | {"motion": motion, "largest": largest}
 
 
 def speeds_about_crossing(contact: ContactModel, shares: Sequence[float], engine_order: int = 4) -> list[float]:

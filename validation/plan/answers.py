@@ -64,7 +64,12 @@ EVIDENCE = [
     Item(
         "evidence.answers.interactions",
         {"lining": table("interactions_lining"), "bare": table("interactions_bare")},
-        {**MOTIONS, "campbell": f"{ALL_SPEEDS.folder}/campbell.nc", "summary": f"{ALL_SPEEDS.folder}/summary.csv"},
+        {
+            **MOTIONS,
+            "campbell": f"{ALL_SPEEDS.folder}/campbell.nc",
+            "summary": f"{ALL_SPEEDS.folder}/summary.csv",
+            "base": ALL_SPEEDS.responses(BLADES, *SCENES),
+        },
     ),
     Item("evidence.answers.large_motion", {"table": table("large_motion"), "picture": "docs/large_motion.png"}, RESPONSES),
 ]

@@ -24,7 +24,7 @@ def files(tmp_path):
             for scene, speeds in (("lining", (1650.0, 1700.0)), ("bare", BARE_SPEEDS))
             for speed in speeds
         ]
-        table = pd.DataFrame(rows).assign(stress=1e9, penetration=5e-5, step=6.4, cpu_s=0.1)
+        table = pd.DataFrame(rows).assign(stress=1e9, penetration=5e-5, step=6.4)
         # a branch that ends elsewhere
         table.loc[(table.case == "draft") & (table.speed == 1700.0), "motion"] = 4e-3
         files.append(tmp_path / f"{blade}.csv")
