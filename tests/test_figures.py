@@ -367,7 +367,7 @@ def test_interactions_are_circles_whose_area_is_their_length_above_yield(dataset
     assert found[1200.0][0] == pytest.approx(6 * 1200.0 / (2 * np.pi))
     bottom, top = axes.get_ylim()
     assert found[1500.0][0] == pytest.approx(0.5 * bottom)
-    assert bottom < found[1900.0][0] < top and axes.get_title().endswith(", at the upper edge: higher")
+    assert bottom < found[1900.0][0] < top and axes.get_title().endswith(" (circles at the top edge: higher)")
     assert [found[speed][1] / found[1700.0][1] for speed in (1000.0, 1200.0, 1500.0)] == pytest.approx([0.5, 0.25, 2.43])
     crosses = [place for line in axes.lines if line.get_label() == "diverged" for place in line.get_xydata().tolist()]
     assert crosses == [[1900.0, pytest.approx(0.5 * bottom)], [1000.0, pytest.approx(4 * 1000.0 / (2 * np.pi))]]

@@ -323,6 +323,10 @@ def test_the_worst_motion_stands_in_the_ranking(motions):
     lengths = [f"length_most_revolutions_{name}_rad_s" for name in ("rest", "worst")]
     assert table.loc[0, [*lengths, "largest_rms_worst_m", "rank_worst"]].tolist() == pytest.approx([0.0, 15.0, 4e-3, 1])
     assert table.loc[1, [lengths[1], "rank_worst"]].isna().all()
+    # from rest at more speeds
+    for from_rest, worst in ((5.0, 15.0), (20.0, 20.0)):
+        longer = ranking_with_motions(ranking.assign(length_most_revolutions_rad_s=from_rest), motions)
+        assert longer[lengths[1]].tolist() == pytest.approx([worst, np.nan], nan_ok=True)
     assert table["carried_revolutions"].tolist() == pytest.approx([100.0, np.nan], nan_ok=True)
 
 

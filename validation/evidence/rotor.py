@@ -21,9 +21,9 @@ BLADES = ("Ref", "CS100")
 SINGLE = "single"
 KINDS = {
     "equal": "36 equal blades",
-    "mistuned_1": "1% of mistuning",
-    "mistuned_1_other": "1%, another draw",
-    "mistuned_1_third": "1%, a third draw",
+    "mistuned_1": "1% of mistuning, seed 0",
+    "mistuned_1_other": "1% of mistuning, seed 1",
+    "mistuned_1_third": "1% of mistuning, seed 2",
 }
 """Rotors of validation/decisions.yaml."""
 

@@ -6,22 +6,28 @@ from plan.runs import ALL_SPEEDS, BLADES, DECIDING, SCENES
 
 LINED = [f"{kind}_abradable" for kind in ("twice", "friction")]
 BARE = [f"{kind}_direct" for kind in ("twice", "friction", "elastic")]
-# on the bare casing all speeds count, on the lining those about 1B/4 of all blades, with carried motions
+# on the bare casing all speeds count, on the lining those about 1B/4, with carried motions
 COARSE = [{"start": 750, "stop": 2000, "step": 50}]
-ABOUT_1B_4 = [{"start": 1540, "stop": 1780, "step": 10}]
-CARRIED = {"from_rad_s": 1540, "to_rad_s": 1780, "step_rad_s": 5, "dwell": {"range_speeds": 0}}
+ABOUT_1B_4, OF_CS100 = (1540, 1780), (1300, 1440)
 
 
-def tried(name, lined, bare, **changes):
-    """A run of other scenes, or at another level."""
+def tried(name, lined, bare, about=ABOUT_1B_4, **changes):
+    """A run of other scenes, at another level, or of other blades."""
+    first, last = about
     return Run(
         name,
         keys={
             **DECIDING,
             "scenes": [*lined, *bare],
             "speeds": COARSE,
-            "speeds_for": [{"scenes": lined, "speeds": ABOUT_1B_4}],
-            "second_motions": {"scenes": lined, **CARRIED},
+            "speeds_for": [{"scenes": lined, "speeds": [{"start": first, "stop": last, "step": 10}]}],
+            "second_motions": {
+                "scenes": lined,
+                "from_rad_s": first,
+                "to_rad_s": last,
+                "step_rad_s": 5,
+                "dwell": {"range_speeds": 0},
+            },
             **changes,
         },
     )
@@ -29,6 +35,8 @@ def tried(name, lined, bare, **changes):
 
 CASES = tried("cases", LINED, BARE)
 COARSER = tried("cases_draft", *[[scene] for scene in SCENES], fidelity="draft")
+CASES_CS100 = tried("cases_CS100", LINED, [], OF_CS100, blades=["CS100"])
+COARSER_CS100 = tried("cases_CS100_draft", ["material_abradable"], [], OF_CS100, blades=["CS100"], fidelity="draft")
 LINEAR = Run(
     "linear",
     keys={
@@ -57,8 +65,8 @@ EVIDENCE = [
             "bare": [file for scene in BARE for file in CASES.responses(BLADES, scene)],
             "draft": COARSER.responses(BLADES, "direct"),
             **MOTIONS,
-            "lined": f"{CASES.folder}/second_motions.nc",
-            "lined_draft": f"{COARSER.folder}/second_motions.nc",
+            "lined": [f"{run.folder}/second_motions.nc" for run in (CASES, CASES_CS100)],
+            "lined_draft": [f"{run.folder}/second_motions.nc" for run in (COARSER, COARSER_CS100)],
         },
     ),
     Item(

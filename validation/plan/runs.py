@@ -12,15 +12,8 @@ SCENES = ("material_abradable", "direct")
 MAIN = Run("")
 """The main job as shipped: `make all_blades` makes the same files."""
 
-DECIDING = {
-    "structure": {"kinematics": "quadratic", "boundary": {"contact": "patches"}},
-    "scenes_file": "validation/deciding.yaml",
-    "scenes": list(SCENES),
-}
-"""What a decision is made on: patches, large displacements, runs until they have settled, stress of rotation included."""
+ALL_SPEEDS = Run("which_blade", ("which_blade",))
+"""The one set of runs: from rest every 2.5 rad/s; from rest, carried up and carried down every 5 rad/s, each as long."""
 
-# the one set of runs: from rest every 2.5 rad/s; from rest, carried up and carried down every 5 rad/s, each as long
-CARRIED = {"from_rad_s": 750, "to_rad_s": 2000, "step_rad_s": 5, "dwell": {"range_speeds": 0}}
-ALL_SPEEDS = Run(
-    "all_speeds", keys={**DECIDING, "speeds": [{"start": 750, "stop": 2000, "step": 2.5}], "second_motions": CARRIED}
-)
+DECIDING = {key: ALL_SPEEDS.content[key] for key in ("structure", "scenes_file", "scenes")}
+"""What a decision is made on: patches, large displacements, runs until they have settled, stress of rotation included."""

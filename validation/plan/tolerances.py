@@ -2,12 +2,11 @@
 
 from evidence.plan import Item, Run, table
 
-# fewer speeds, for a wide interaction, and the scene to decide by
+# fewer speeds, for a wide interaction
 MEMBERS = Run(
     "tolerances",
     ("tolerances",),
     {
-        "scenes_file": "validation/deciding.yaml",
         "blades": ["Ref", "CS100"],
         "fidelity": "draft",
         "speeds": [{"start": 1660, "stop": 1888, "step": 12}],

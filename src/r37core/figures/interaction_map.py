@@ -90,7 +90,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
         style.rpm_axis(grid[0, 0], most_ticks=6)
         grid[-1, 0].set_xlabel(style.SPEED_LABEL)
         for scene, axes in panels.items():
-            higher = ", at the upper edge: higher" if rows["higher"][rows["scene"] == scene].any() else ""
+            higher = " (circles at the top edge: higher)" if rows["higher"][rows["scene"] == scene].any() else ""
             axes.set(title=f"{style.scene_words(scene)}{higher}", ylabel="frequency (Hz)")
             axes.grid(visible=False)
             _draw_modes(axes, campbell, dict.fromkeys([*NAMED_MODES, *rows["mode"][rows["scene"] == scene].dropna()]))

@@ -300,7 +300,7 @@ WORST_MOTION = (
     ),
     Column(
         "length_most_revolutions_worst_rad_s",
-        "length above yield in most revolutions by the worst motion up, down and from rest",
+        "length above yield in most revolutions by the worst motion up, down and from rest, or from rest alone if longer",
         f"{_MOST}, worst motion",
     ),
     Column("largest_rms_worst_m", "largest rms of the motions up, down and from rest", "largest rms, worst motion"),

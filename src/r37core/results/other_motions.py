@@ -31,10 +31,15 @@ def half_step(speeds: np.ndarray) -> float:
 
 
 def ranking_with_motions(ranking: pd.DataFrame, motions: xr.Dataset) -> pd.DataFrame:
-    """The ranking with the length of speeds above yield by the motion from rest and by the worst one, on the same speeds."""
+    """The ranking with the length of speeds above yield by the motion from rest and by the worst one, on the same speeds.
+
+    The worst one has the length of the runs from rest where that is longer: they may be at more speeds.
+    """
     rows = [_worst(swept(motions.sel(blade=row.blade, scene=row.scene))) for row in ranking.itertuples()]
     *lengths, rank = names(WORST_MOTION)
     table = pd.concat([ranking, pd.DataFrame(rows, index=ranking.index, columns=lengths)], axis=1)
+    worst, from_rest = table["length_most_revolutions_worst_rad_s"], table.get("length_most_revolutions_rad_s", np.nan)
+    table["length_most_revolutions_worst_rad_s"] = worst.where(worst.isna(), np.fmax(worst, from_rest))
     alike = [name for name in ("scene", "contact") if name in table]
     table[rank] = table.groupby(alike)["length_most_revolutions_worst_rad_s"].rank(method="min").astype("Int64")
     return table
