@@ -11,9 +11,9 @@ COARSE = [{"start": 750, "stop": 2000, "step": 50}]
 ABOUT_1B_4, OF_CS100 = (1540, 1780), (1300, 1440)
 
 
-def tried(name, lined, bare, about=ABOUT_1B_4, **changes):
+def tried(name, lined, bare, ends=ABOUT_1B_4, **changes):
     """A run of other scenes, at another level, or of other blades."""
-    first, last = about
+    first, last = ends
     return Run(
         name,
         keys={

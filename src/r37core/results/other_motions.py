@@ -38,8 +38,8 @@ def ranking_with_motions(ranking: pd.DataFrame, motions: xr.Dataset) -> pd.DataF
     rows = [_worst(swept(motions.sel(blade=row.blade, scene=row.scene))) for row in ranking.itertuples()]
     *lengths, rank = names(WORST_MOTION)
     table = pd.concat([ranking, pd.DataFrame(rows, index=ranking.index, columns=lengths)], axis=1)
-    worst, from_rest = table["length_most_revolutions_worst_rad_s"], table.get("length_most_revolutions_rad_s", np.nan)
-    table["length_most_revolutions_worst_rad_s"] = worst.where(worst.isna(), np.fmax(worst, from_rest))
+    worst, rest = table["length_most_revolutions_worst_rad_s"], table.get("length_most_revolutions_rad_s", np.nan)
+    table["length_most_revolutions_worst_rad_s"] = worst.where(worst.isna(), np.fmax(worst, rest))
     alike = [name for name in ("scene", "contact") if name in table]
     table[rank] = table.groupby(alike)["length_most_revolutions_worst_rad_s"].rank(method="min").astype("Int64")
     return table
