@@ -13,7 +13,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
 from r37core.results.closing import interaction_title
 from r37core.results.columns import MOST_REVOLUTIONS
-from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of
+from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined
 from r37core.results.measures import motion
 from r37core.results.other_motions import swept, worst_exceedance
 from r37core.results.ranking import read_ranking
@@ -148,7 +148,7 @@ def interactions(input: Any, output: Any, params: Any) -> None:
         for blade in _blades(motions):
             response = from_rest[blade, scene]
             either = (_worst(motions, blade, scene), exceedance_of(response))
-            ranges = max(either, key=lambda worst: worst.length(MOST_REVOLUTIONS)).ranges(MOST_REVOLUTIONS)
+            ranges = joined(max(either, key=lambda worst: worst.length(MOST_REVOLUTIONS)).ranges(MOST_REVOLUTIONS))
             longest = sorted(sorted(ranges, key=lambda part: -part.length)[:_LONGEST], key=lambda part: part.begin)
             own = summary[(summary["blade"] == blade) & (summary["scene"] == scene)]
             words = ", ".join(f"{part.begin:.0f} to {part.end:.0f} ({_named(part, own)})" for part in longest)

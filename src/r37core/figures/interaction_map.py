@@ -40,9 +40,6 @@ _MARKS = {
 }
 """`above` of results.interactions.sized -> marker, its area (pt^2; NaN: by the size), how dense it is, and its meaning."""
 
-_SMALL = 0.2
-"""Share of the largest size of all below which a scene has a scale of its own."""
-
 _LETTERS: dict[Any, Any] = {f"{part}size": 9 for part in ("font.", "axes.label", "xtick.label", "ytick.label", "legend.font")}
 _HALO = [withStroke(linewidth=2.0, foreground="white")]
 _AWAY = [(side, distance) for distance in (1.5, 12.0, 24.0, 36.0) for side in product((1, -1, 0), (1, -1, 0)) if any(side)]
@@ -66,9 +63,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     longest = sorted(scenes, key=lambda scene: -lengths.get(scene, 0.0))[:_MOST_SCENES]
     scenes = [scene for scene in scenes if scene in longest]
     rows = rows[rows["scene"].isin(scenes)]
-    # one scale, but for scenes whose circles would be points on it
-    own, all_scenes = (rows.groupby(key)["size"].transform("max") for key in ("scene", "unit"))
-    rows = rows.assign(scale=own.where(own < _SMALL * all_scenes, all_scenes))
+    rows = rows.assign(scale=rows.groupby("unit")["size"].transform("max"))
     colours = _colours(campbell["blade"].values.astype(str).tolist(), rows)
     ran = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
     margin = max(0.03 * (ran[-1] - ran[0]), 0.01 * ran[-1])

@@ -46,7 +46,7 @@ SPEED_LABEL = "speed (rad/s)"
 RUN_UP_LABEL = "mean speed of the revolution (rad/s)"
 """Labels of axes of speeds, by which the operating range is marked."""
 
-_SHIPPED = {"abradable": "abradable lining", "direct": "bare casing", "material_abradable": "lining on all of the tip"}
+_SHIPPED = {"abradable": "abradable lining", "direct": "bare casing", "material_abradable": "abradable lining, all of the tip"}
 
 
 def scene_words(scene: Any) -> str:
