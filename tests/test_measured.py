@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import CHECKOUT
+from conftest import CONFIGURATION
 
 import r37
 from r37core.config import ConfigError, Document
@@ -220,7 +220,7 @@ def configured(folder, measured, text="speed_rad_s,a_m\n1000,1e-3\n1100,2e-3\n",
         "fidelity": "draft",
         "measured": entries,
     }
-    return load_settings(Document("config.yaml", content | more), CHECKOUT)
+    return load_settings(Document("config.yaml", content | more), CONFIGURATION.parent)
 
 
 def test_a_gauge_is_that_of_the_signals(tmp_path):
