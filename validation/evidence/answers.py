@@ -35,10 +35,10 @@ DRAWN = ("Ref", "S100")
 """Blades whose motion is drawn: without sweep, and with most of it."""
 
 INTERACTIONS = (
-    *("blade", "1B/4 at (rad/s)", "three longest ranges above yield (rad/s)", "all ranges (rad/s)"),
-    *("largest motion (mm)", "largest from rest", "at (rad/s)"),
+    *("blade", "1B/4 at (rad/s)", "1B/6 at (rad/s)", "three longest ranges above yield (rad/s)", "all ranges (rad/s)"),
+    *("largest motion (mm)", "largest from rest"),
 )
-"""Columns of the tables of interactions: ranges and motion from rest or by the worst motion, the last two from rest."""
+"""Columns of the tables of interactions: ranges and motion from rest or by the worst motion, the last one from rest."""
 
 MOTION = ("largest motion (mm)", "at (rad/s)", "above yield (rad/s)")
 """Columns of the table of large motion, for each contact."""
@@ -154,9 +154,9 @@ def interactions(input: Any, output: Any, params: Any) -> None:
             words = ", ".join(f"{part.begin:.0f} to {part.end:.0f} ({_named(part, own)})" for part in longest)
             top = own.sort_values("peak_motion_m").tail(1)
             largest = 1e3 * max(motion(response).max(), float(motions.sel(blade=blade, scene=scene)["motion_mean"].max()))
-            crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=4))
-            rows.append([blade, f"{crossing:.0f}", words, f"{sum(part.length for part in ranges):.0f}", f"{largest:.1f}"])
-            rows[-1] += [*_titles(top), *(f"{speed:.0f}" for speed in top["peak_speed_rad_s"])] or ["-", "-"]
+            crossings = campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=[4, 6]).values
+            rows.append([blade, *(f"{crossing:.0f}" for crossing in crossings), words])
+            rows[-1] += [f"{sum(part.length for part in ranges):.0f}", f"{largest:.1f}", *(_titles(top) or ["-"])]
         write_table(list(INTERACTIONS), rows, file)
 
 
