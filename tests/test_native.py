@@ -315,8 +315,8 @@ def test_blades_of_any_size_take_one_program(integrator):
 
 
 AVX2, AVX512 = ("fma", "avx2", "bmi2"), ("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl")
-PROCESSORS = {"x86-64-v3": AVX2, "znver3": AVX2, "x86-64-v4": AVX2 + AVX512, "znver4": AVX2 + AVX512}
-"""Processors by LLVM's names, two makers' for each width of vectors, and what of their instructions programs use."""
+PROCESSORS = {"x86-64-v3": AVX2, "x86-64-v4": AVX2 + AVX512, "znver4": AVX2 + AVX512}
+"""Processors by LLVM's names, of each width of vectors and two makers, and what of their instructions programs use."""
 
 
 @pytest.fixture(scope="module")
