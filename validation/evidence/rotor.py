@@ -27,7 +27,7 @@ KINDS = {
 }
 """Rotors of validation/decisions.yaml."""
 
-COLUMNS = ("blade", "rotor", "above yield (rad/s)", "largest stress / yield", "most blades at once")
+COLUMNS = ("blade", "rotor", "above yield (rad/s)", "first, last (rad/s)", "largest stress / yield", "most blades at once")
 
 
 def kinds(input: Any, output: Any, params: Any) -> None:
@@ -58,4 +58,6 @@ def _worst(rotor: xr.Dataset) -> xr.DataArray:
 
 
 def _length(ratio: xr.DataArray) -> list[str]:
-    return [f"{length_of(ranges_above(ratio['speed'].values, ratio.values, 1.0)):.0f}", f"{float(ratio.max()):.2f}"]
+    ranges = ranges_above(ratio["speed"].values, ratio.values, 1.0)
+    ends = f"{ranges[0].begin:.0f}, {ranges[-1].end:.0f}" if ranges else "-"
+    return [f"{length_of(ranges):.0f}", ends, f"{float(ratio.max()):.2f}"]
