@@ -32,11 +32,14 @@ _MOST_SCENES, _MOST_LABELS = 6, 5
 _LARGEST, _STRIP = 26.0, 0.09
 """Diameter (pt) of the largest circle; how deep below 0 the strip of what has no engine order lies, as a share of the panel."""
 
+_SMALLEST = 25.0
+"""Smallest area (pt^2) of a circle, which can still be seen: that of what is not above yield."""
+
 _MARKS = {
     MOST: ("o", np.nan, 0.45, "above yield in most revolutions"),
     SOME: ("D", 36.0, 0.45, "in some"),
-    NEVER: ("o", 25.0, 0.0, "in none"),
-    "": (".", 12.0, 0.0, "stress not known"),
+    NEVER: ("o", _SMALLEST, 0.0, "in none"),
+    "": (".", _SMALLEST, 0.0, "stress not known"),
 }
 """`above` of results.interactions.sized -> marker, its area (pt^2; NaN: by the size), how dense it is, and its meaning."""
 
@@ -73,8 +76,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     sized_by_motion = rows["unit"] == "mm"
     rows["above"] = rows["above"].mask(sized_by_motion, MOST)
     rows["area"] = rows["above"].map({above: area for above, (_, area, *_) in _MARKS.items()})
-    # all large enough to be seen
-    rows["area"] = rows["area"].fillna(_LARGEST**2 * rows["size"] / rows["scale"]).fillna(0.0).clip(lower=4.0)
+    rows["area"] = rows["area"].fillna(_LARGEST**2 * rows["size"] / rows["scale"]).fillna(0.0).clip(lower=_SMALLEST)
     with plt.rc_context(_LETTERS | {"axes.titlesize": 10}):
         size = (_WIDTH, 0.9 + len(scenes) * (3.0 if len(scenes) < 3 else 2.4))
         figure, grid = plt.subplots(len(scenes), 1, figsize=size, sharex=True, sharey=True, squeeze=False)
@@ -166,7 +168,8 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
     if diverged.any():
         axes.plot(*_places(rows[diverged]), "x", color="red", zorder=2.6, label="diverged", clip_on=False)
     circles = rows[rows["size"] > 0.0]
-    if len(circles):
+    # where all are of the smallest size, a key would be wrong
+    if (circles["area"] > _SMALLEST).any():
         unit, scale, largest = circles["unit"].iloc[0], circles["scale"].iloc[0], circles["size"].max()
         sizes = [_round(largest), _round(0.15 * largest)]
         key: dict[str, Any] = {"marker": "o", "linestyle": "", "color": "0.8", "markeredgecolor": "0.3"}
