@@ -449,6 +449,14 @@ def test_scenes_share_a_scale(datasets):
         assert areas[1] == pytest.approx(share * areas[0])
 
 
+def test_sizes_that_are_not_drawn_to_scale_have_no_key(datasets):
+    for length, key in ((2.0, ["2 rad/s"]), (0.5, None)):
+        legend = (
+            draw_interactions(datasets, {}, {"scene": "direct", "length_most_revolutions_rad_s": length}).axes[1].get_legend()
+        )
+        assert (legend and [text.get_text() for text in legend.get_texts()]) == key
+
+
 def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):
     assert len({figure.rule for figure in FIGURES}) == len({figure.name for figure in FIGURES}) == len(FIGURES)
     for file in (root / "workflow/rules").glob("*.smk"):

@@ -1,4 +1,4 @@
-"""What the levels cost in accuracy and time on seven blades, against a finer reference and chance (docs/accuracy.md)."""
+"""Accuracy of the levels on seven blades, against a finer reference and against chance (docs/accuracy.md)."""
 
 from __future__ import annotations
 

@@ -36,12 +36,12 @@ def kinds(input: Any, output: Any, params: Any) -> None:
     figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.2, 5.4), layout="constrained")
     for place, (blade, axes) in enumerate(zip(BLADES, panels, strict=True)):
         single = ratio_to_yield(read_judged(input[SINGLE][place]))
-        rows.append([blade, "a single blade", *_length(single), "1"])
+        rows.append([blade, "a single blade", *_cells(single), "1"])
         axes.plot(single["speed"], single, "o-", color="black", markersize=3, label="a single blade")
         for kind, words in KINDS.items():
             rotor = read_dataset(input[kind][place])
             worst, most = _worst(rotor), rotor["blades_ever_above_yield"].max() * rotor.sizes["blade_number"]
-            rows.append([blade, words, *_length(worst), f"{float(most):.0f}"])
+            rows.append([blade, words, *_cells(worst), f"{float(most):.0f}"])
             axes.plot(worst["speed"], worst, ".-", markersize=4, linewidth=1.0, label=f"worst of {words}")
         axes.axhline(1.0, color="0.3", linewidth=0.9, linestyle="--", label="yield")
         axes.set(title=blade, ylabel="largest stress / yield")
@@ -57,7 +57,8 @@ def _worst(rotor: xr.Dataset) -> xr.DataArray:
     return worst.where(rotor["status"] != RunStatus.DIVERGED, np.inf)
 
 
-def _length(ratio: xr.DataArray) -> list[str]:
+def _cells(ratio: xr.DataArray) -> list[str]:
+    """Length above yield, its first and last speed (rad/s), and the largest ratio."""
     ranges = ranges_above(ratio["speed"].values, ratio.values, 1.0)
     ends = f"{ranges[0].begin:.0f}, {ranges[-1].end:.0f}" if ranges else "-"
     return [f"{length_of(ranges):.0f}", ends, f"{float(ratio.max()):.2f}"]

@@ -6,9 +6,10 @@ from plan.runs import ALL_SPEEDS, BLADES, DECIDING, SCENES
 
 LINED = [f"{kind}_abradable" for kind in ("twice", "friction")]
 BARE = [f"{kind}_direct" for kind in ("twice", "friction", "elastic")]
-# on the bare casing all speeds count, on the lining those about 1B/4, with carried motions
+# on the bare casing all speeds count, on the lining those about 1B/4, with carried motions; CS100's are in runs of its own
 COARSE = [{"start": 750, "stop": 2000, "step": 50}]
 ABOUT_1B_4, OF_CS100 = (1540, 1780), (1300, 1440)
+CARRIED = ALL_SPEEDS.content["second_motions"]
 
 
 def tried(name, lined, bare, ends=ABOUT_1B_4, **changes):
@@ -21,13 +22,7 @@ def tried(name, lined, bare, ends=ABOUT_1B_4, **changes):
             "scenes": [*lined, *bare],
             "speeds": COARSE,
             "speeds_for": [{"scenes": lined, "speeds": [{"start": first, "stop": last, "step": 10}]}],
-            "second_motions": {
-                "scenes": lined,
-                "from_rad_s": first,
-                "to_rad_s": last,
-                "step_rad_s": 5,
-                "dwell": {"range_speeds": 0},
-            },
+            "second_motions": {"scenes": lined, **CARRIED, "from_rad_s": first, "to_rad_s": last},
             **changes,
         },
     )

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from conftest import CHECKOUT
 from evidence import answers
 from evidence.tables import read_table
 
@@ -39,6 +40,14 @@ def test_lengths_are_those_of_the_ranking(rankings, tmp_path):
     assert head[1:4] == ["bare casing: from rest", "bare casing: worst motion", "bare casing: linear"]
     assert rows == [["Ref", "90", "120", "120", "90", "90", "120"], ["S100", "800", "830", "900", "800", "800", "900"]]
     assert output.picture.stat().st_size > 10_000
+
+
+def test_which_blade_and_interactions_have_one_length():
+    files = (CHECKOUT / f"validation/tables/{name}.csv" for name in ("answer", "interactions_bare", "interactions_lining"))
+    (names, *answer), *others = map(read_table, files)
+    for scene, (head, *rows) in zip(answers.SCENES.values(), others, strict=True):
+        worst = {row[0]: row[names.index(f"{scene}: worst motion")] for row in answer}
+        assert worst == {row[0]: row[head.index("all ranges (rad/s)")] for row in rows}
 
 
 def test_a_length_is_that_of_the_speeds_asked_for():

@@ -51,9 +51,9 @@ FIGURES = (
         "and 1B, 1T and 2B, bands over several blades; dashed: other modes, and combinations of two, that interactions on a "
         "bare casing are named by. A circle is an interaction above yield in most of the later "
         "revolutions, at its peak speed and engine order; its area is the length of these speeds, or the rms of the motion "
-        "without stress. Diamonds are above yield in some of the later revolutions, open rings in none. Lines along a mark: "
-        "its speeds above yield. Ranges without an engine order lie on a strip below 0. '>': the range goes on to an end of "
-        "the speeds that were run. Red crosses: runs that diverged. Of more than six scenes those with the longest lengths.",
+        "without stress, never less than that of an open ring. Diamonds are above yield in some of the later revolutions, "
+        "open rings in none. Lines along a mark: its speeds above yield. Ranges without an engine order lie on a strip below "
+        "0. '>': the range goes on to an end of the speeds that were run. Red crosses: runs that diverged. Of more than six scenes those with the longest lengths.",
     ),
     Figure(
         rule="response_figure",

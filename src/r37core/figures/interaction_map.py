@@ -168,10 +168,8 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
     if diverged.any():
         axes.plot(*_places(rows[diverged]), "x", color="red", zorder=2.6, label="diverged", clip_on=False)
     circles = rows[rows["size"] > 0.0]
-    # where all are of the smallest size, a key would be wrong
-    if (circles["area"] > _SMALLEST).any():
-        unit, scale, largest = circles["unit"].iloc[0], circles["scale"].iloc[0], circles["size"].max()
-        sizes = [_round(largest), _round(0.15 * largest)]
+    if sizes := _sizes_of_key(circles):
+        unit, scale = circles["unit"].iloc[0], circles["scale"].iloc[0]
         key: dict[str, Any] = {"marker": "o", "linestyle": "", "color": "0.8", "markeredgecolor": "0.3"}
         handles = [Line2D([], [], markersize=_LARGEST * np.sqrt(each / scale), **key) for each in sizes]
         # on no mark: above the strip, or else at the top
@@ -181,6 +179,12 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
         place: dict[str, Any] = {"loc": "upper left"} if crowded else {"loc": "lower right", "bbox_to_anchor": (1.0, zero)}
         box: dict[str, Any] = {"frameon": True, "framealpha": 0.9, "edgecolor": "none", "columnspacing": 1.0, "borderpad": 0.6}
         axes.legend(handles, [f"{each:g} {unit}" for each in sizes], ncols=2, **place, **box)
+
+
+def _sizes_of_key(circles: pd.DataFrame) -> list[float]:
+    """Rounded sizes of the largest circle and of a smaller one, if circles of these sizes are drawn to scale."""
+    rounded = [_round(share * largest) for largest in circles["size"].nlargest(1) for share in (1.0, 0.15)]
+    return [size for size in rounded if _LARGEST**2 * size > _SMALLEST * circles["scale"].max()]
 
 
 def _places(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
