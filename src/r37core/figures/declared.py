@@ -53,7 +53,8 @@ FIGURES = (
         "revolutions, at its peak speed and engine order; its area is the length of these speeds, or the rms of the motion "
         "without stress, never less than that of an open ring. Diamonds are above yield in some of the later revolutions, "
         "open rings in none. Lines along a mark: its speeds above yield. Ranges without an engine order lie on a strip below "
-        "0. '>': the range goes on to an end of the speeds that were run. Red crosses: runs that diverged. Of more than six scenes those with the longest lengths.",
+        "0. '>': the range goes on to an end of the speeds that were run. Red crosses: runs that diverged. "
+        "Of more than six scenes those with the longest lengths.",
     ),
     Figure(
         rule="response_figure",
