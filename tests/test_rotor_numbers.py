@@ -93,7 +93,7 @@ def test_any_blade_may_diverge_first(casing, longest, late, tmp_path):
     write_speed(numbers, tmp_path / "speed.npz", {})
     dataset = rotor_dataset([tmp_path / "speed.npz"], [SPEED], 1e9)
     assert dataset["status"] == 1 and dataset["leader"] == longest + 1
-    assert np.isnan(dataset["blades_ever_above_yield"])
+    assert np.isnan(dataset["blade_share_of_revolutions_above_yield"]).all()
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -145,9 +145,9 @@ def test_dataset_table_and_figure(tmp_path):
     assert many["blade_longer"].values.tolist() == [1e-5] * 6 and many["yield_stress"] == 2e-5
     assert many["span"].values.tolist() == [1, 2, 3] and many["stress_span"].values.tolist() == [2, 3]
     assert many["lobes"].values.tolist() == list(range(many.sizes["lobes"])) and many.sizes["lobes"] > 3
-    ever = (many["blade_von_mises"] > 2e-5).any("stress_span")
-    np.testing.assert_allclose(many["blades_ever_above_yield"], ever.mean("blade_number"))
-    assert 0.0 < many["blades_ever_above_yield"].mean() < 1.0
+    share = many["blade_share_of_revolutions_above_yield"]
+    np.testing.assert_allclose(share, (many["blade_von_mises"] > 2e-5).mean("stress_span"))
+    assert 0.0 < share.mean() < 1.0 and many["lined"] == 1
     np.testing.assert_array_equal(many["blade_max_von_mises_ever"], many["blade_von_mises"].max("stress_span"))
     assert "6 blades" in draw_rotor(many, "Ref, many").get_suptitle()
 
@@ -166,11 +166,16 @@ def test_spans_of_a_long_run_end_with_it(tmp_path):
     revolutions = 2 * MOST_GROWTH + 1
     choice = replace(RECORDED, revolutions=revolutions, snapshot_revolutions=MOST_GROWTH + 1)
     numbers = numbers_of(STEEP, rotor_of(1), choice)
-    assert numbers["span_revolutions"] == 3 and numbers["stress_span_revolutions"] == 2
+    assert numbers["span_revolutions"] == 3 and numbers["blade_von_mises"].shape == (1, MOST_GROWTH + 1)
     write_speed(numbers, tmp_path / "speed.npz", {})
     dataset = rotor_dataset([tmp_path / "speed.npz"], [SPEED], 1e9)
     assert dataset["span"][[0, -2, -1]].values.tolist() == [2, revolutions - 3, revolutions]
     assert dataset["stress_span"][[0, -2, -1]].values.tolist() == [201, revolutions - 2, revolutions]
+    # the share is of revolutions, not of spans
+    stress = numbers["blade_von_mises"][0, -int(numbers["statistic_revolutions"]) :]
+    middle = float(np.sort(stress)[len(stress) // 3])
+    judged = rotor_dataset([tmp_path / "speed.npz"], [SPEED], middle)["blade_share_of_revolutions_above_yield"]
+    assert judged.item() == np.mean(stress > middle) and judged.item() * len(stress) % 1.0 == pytest.approx(0.0, abs=1e-9)
 
 
 def test_the_leader_moves_most_in_both_directions_together():
@@ -193,10 +198,11 @@ def test_the_leader_moves_most_in_both_directions_together():
 SPANS = 41
 
 
-def a_rotor(rms, stress=None, status=None, leader=None):
+def a_rotor(rms, stress=None, status=None, leader=None, share=None):
     """rotor.nc at speeds of 900, 910, ... rad/s, of blades 1, 3, 5, ...; stresses in GPa and in a yield stress of 1 GPa.
 
-    The motion in spans of two revolutions is a tenth of the rms, two tenths and so on.
+    The motion in spans of two revolutions is a tenth of the rms, two tenths and so on. `share` of the revolutions above yield
+    at each speed of a blade that ever is.
     """
     rms, numbers = np.array(rms, dtype=float), 1 + 2 * np.arange(len(rms[0]))
     speeds, spans = 900.0 + 10.0 * np.arange(len(rms)), np.arange(1, SPANS + 1)
@@ -208,12 +214,13 @@ def a_rotor(rms, stress=None, status=None, leader=None):
         "status": ("speed", np.zeros(len(rms), int) if status is None else status),
         "nodal_diameter_share": (("speed", "nodal_diameter"), np.where(np.isnan(rms[:, :1]), np.nan, [[0.1, 0.2, 0.7]])),
         "yield_stress": 1e9,
+        "lined": 1,
         **{name: ("blade_number", one) for name in ("blade_angle", "blade_frequency_factor", "blade_longer")},
     }
     if stress is not None:
         of_blades = 1e9 * np.array(stress)
-        above = np.where(np.isnan(of_blades[:, 0]), np.nan, np.mean(of_blades > 1e9, axis=1))
-        data |= {"blade_max_von_mises_ever": (by_blade, of_blades), "blades_ever_above_yield": ("speed", above)}
+        above = np.where(np.isnan(of_blades), np.nan, of_blades > 1e9) * np.reshape(1.0 if share is None else share, (-1, 1))
+        data |= {"blade_max_von_mises_ever": (by_blade, of_blades), "blade_share_of_revolutions_above_yield": (by_blade, above)}
     axes = {"speed": speeds, "speed_rpm": ("speed", 9.55 * speeds), "blade_number": numbers, "span": 2 * spans}
     return xr.Dataset(data, axes | {"nodal_diameter": [-1, 0, 1]})
 
@@ -232,13 +239,16 @@ def rows_of(tmp_path, **rotors):
 def test_the_table_has_the_worst_speed_and_who_leads_there(tmp_path):
     rms = [[1.0, 2.0, 4.0], [8.0, 3.0, 1.0], [2.0, 9.0, 1.0]]
     stress = [[0.5, 0.5, 0.5], [1.5, 2.5, 0.5], [1.0, 2.0, 0.5]]
-    table = rows_of(tmp_path, stressed=a_rotor(rms, stress), moving=a_rotor(rms))
+    table = rows_of(tmp_path, stressed=a_rotor(rms, stress, share=[1.0, 1.0, 0.3]), moving=a_rotor(rms))
     row = table.loc["stressed"]
     assert (row["worst_speed_rad_s"], row["leader_by_motion"], row["leader_by_stress"]) == (910.0, 1, 3)
     assert (row["leader_motion_m"], row["median_motion_m"], row["largest_stress_pa"]) == (8.0, 3.0, 2.5e9)
     assert (row["blades"], row["speeds"], row["diverged_speeds"]) == (3, 3, 0)
-    assert row["blades_above_yield"] == pytest.approx(2.0)
-    assert row["length_with_any_blade_above_yield_rad_s"] == pytest.approx(10.0 + 10.0 * 1.5 / 2.0)
+    assert row["blades_above_yield"] == 2
+    # of the shares 0, 1 and 0.3 the part above a half; ever: of the stresses 0.5, 2.5 and 2
+    assert row["length_most_revolutions_rad_s"] == pytest.approx(10.0 * 0.5 + 10.0 * 0.5 / 0.7)
+    assert row["length_some_revolutions_rad_s"] == pytest.approx(10.0 * 0.95 + 10.0)
+    assert row["length_ever_rad_s"] == pytest.approx(10.0 * 0.95 + 10.0)
     assert (row["nodal_diameter"], row["nodal_diameter_share"]) == (1, 0.7)
     row = table.loc["moving"]
     assert (row["worst_speed_rad_s"], row["leader_by_motion"], row["median_motion_m"]) == (920.0, 3, 2.0)
@@ -253,10 +263,10 @@ def test_speeds_that_diverged_are_above_yield_in_the_table(tmp_path):
     row = table.loc["part"]
     names = ["diverged_speeds", "worst_speed_rad_s", "leader_by_motion", "leader_by_stress"]
     assert row[names].tolist() == [1, 920.0, 1, 3]
-    # of a run that diverged nothing of the way to the next speed counts
-    assert row["length_with_any_blade_above_yield_rad_s"] == 0.0 and row["blades_above_yield"] == 0.0
+    # as of a single blade, a run that diverged is above yield in all revolutions: half of the way to its neighbours counts
+    assert row["blades_above_yield"] == 0 and row["length_most_revolutions_rad_s"] == pytest.approx(10.0)
     row = table.loc["none"]
-    assert (row["diverged_speeds"], row["leader_by_motion"], row["length_with_any_blade_above_yield_rad_s"]) == (2, 3, 10.0)
+    assert (row["diverged_speeds"], row["leader_by_motion"], row["length_most_revolutions_rad_s"]) == (2, 3, 10.0)
     assert row[["leader_by_stress", "nodal_diameter", "largest_stress_pa", "leader_motion_m"]].isna().all()
 
 
@@ -270,7 +280,7 @@ def test_the_figure_shows_all_blades_and_names_those_that_move_most():
     worst, median = stress.lines[:2]
     np.testing.assert_allclose(worst.get_ydata(), [3.0, 0.5])
     np.testing.assert_allclose(median.get_ydata(), [0.5, 0.3])
-    assert stress.get_title() == "at most 2 of 5 blades above yield at one speed"
+    assert stress.get_title() == "at most 2 of 5 blades above yield in most revolutions"
     names = [line.get_label() for line in growth.lines]
     assert names[2:] == ["blade 9", "blade 5", "blade 1"] and all(name.startswith("_") for name in names[:2])
     for line, size in zip(growth.lines, (2.0, 1.0, 5.0, 4.0, 3.0), strict=True):

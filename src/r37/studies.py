@@ -248,10 +248,10 @@ def rotor(
             without `signal` and `shapes`, which are of a single blade.
 
     Returns:
-        By ascending speed. `blade_rms` (m) of the leading edge's displacement, normal and tangential together, and
-        `blade_max_von_mises_ever` (Pa), shape (speed, blade_number). `blade_maximum` (m), shape (speed, blade_number, span),
-        largest over spans of revolutions. `leader`, shape (speed,), number of the blade with the largest `blade_rms`.
-        `nodal_diameter_share`, shape (speed, nodal_diameter), and others.
+        By ascending speed. `blade_rms` (m) of the leading edge's displacement, normal and tangential together,
+        `blade_max_von_mises_ever` (Pa) and `blade_share_of_revolutions_above_yield`, shape (speed, blade_number).
+        `blade_maximum` (m), shape (speed, blade_number, span), largest over spans of revolutions. `leader`, shape (speed,),
+        number of the blade with the largest `blade_rms`. `nodal_diameter_share`, shape (speed, nodal_diameter), and others.
 
     Raises:
         ConfigError: For bad input, and for a scene without a rotor.

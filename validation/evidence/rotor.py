@@ -1,17 +1,18 @@
-"""Rotors against a single blade: speeds above yield, and how many blades are above it at once."""
+"""Rotors against a single blade: speeds above yield in most revolutions and ever, and how many blades are at once."""
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
+from matplotlib.axes import Axes
 
 from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
 from r37core.figures.style import plt
-from r37core.results.danger import ratio_to_yield
-from r37core.results.exceedance import length_of, ranges_above
+from r37core.results.danger import danger_of, ranges_of
+from r37core.results.exceedance import SpeedRange, exceedance_of, length_of
 from r37core.results.regions import read_judged
-from r37core.time_integration.status import RunStatus
+from r37core.rotors.dataset import blades_above_yield, worst_blade
 
 from .tables import write_table
 
@@ -27,38 +28,45 @@ KINDS = {
 }
 """Rotors of validation/decisions.yaml."""
 
-COLUMNS = ("blade", "rotor", "above yield (rad/s)", "first, last (rad/s)", "largest stress / yield", "most blades at once")
+COLUMNS = (
+    *("blade", "rotor", "above yield in most revolutions (rad/s)", "first, last (rad/s)", "ever above yield (rad/s)"),
+    *("ever first, last (rad/s)", "largest stress / yield", "most blades at once"),
+)
 
 
 def kinds(input: Any, output: Any, params: Any) -> None:
     """Speeds above yield of a single blade and of rotors of it. Inputs: files of BLADES by scene. Outputs: table, picture."""
     rows = []
-    figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.2, 5.4), layout="constrained")
+    figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.6, 5.0), layout="constrained")
     for place, (blade, axes) in enumerate(zip(BLADES, panels, strict=True)):
-        single = ratio_to_yield(read_judged(input[SINGLE][place]))
-        rows.append([blade, "a single blade", *_cells(single), "1"])
-        axes.plot(single["speed"], single, "o-", color="black", markersize=3, label="a single blade")
-        for kind, words in KINDS.items():
-            rotor = read_dataset(input[kind][place])
-            worst, most = _worst(rotor), rotor["blades_ever_above_yield"].max() * rotor.sizes["blade_number"]
-            rows.append([blade, words, *_cells(worst), f"{float(most):.0f}"])
-            axes.plot(worst["speed"], worst, ".-", markersize=4, linewidth=1.0, label=f"worst of {words}")
-        axes.axhline(1.0, color="0.3", linewidth=0.9, linestyle="--", label="yield")
-        axes.set(title=blade, ylabel="largest stress / yield")
+        drawn = {}
+        for kind, words in {SINGLE: "a single blade", **KINDS}.items():
+            rotor = None if kind == SINGLE else read_dataset(input[kind][place])
+            judged = read_judged(input[kind][place]) if rotor is None else worst_blade(rotor)
+            most, _, ever = ranges_of(judged, exceedance_of(judged)).values()
+            drawn[words] = {"ever": ever, "in most revolutions": most}
+            blades = blades_above_yield(rotor) if rotor is not None else int(bool(most))
+            rows.append([blade, words, *_cells(most), *_cells(ever)])
+            rows[-1] += [f"{danger_of(judged)['largest_stress_over_yield']:.2f}", str(blades)]
+        _bars(axes, drawn)
+        axes.set_title(blade, loc="left", fontweight="bold")
     panels[-1].set_xlabel(style.SPEED_LABEL)
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2, title="above yield")
     style.save(figure, output.picture)
     write_table(list(COLUMNS), rows, output.table)
 
 
-def _worst(rotor: xr.Dataset) -> xr.DataArray:
-    """Largest stress of any blade over yield at each speed; infinite where the run diverged."""
-    worst = rotor["blade_max_von_mises_ever"].max("blade_number") / rotor["yield_stress"]
-    return worst.where(rotor["status"] != RunStatus.DIVERGED, np.inf)
+def _cells(ranges: Sequence[SpeedRange]) -> list[str]:
+    """Length of all ranges, and the first and last speed of all (rad/s)."""
+    return [f"{length_of(ranges):.0f}", f"{ranges[0].begin:.0f}, {ranges[-1].end:.0f}" if ranges else "-"]
 
 
-def _cells(ratio: xr.DataArray) -> list[str]:
-    """Length above yield, its first and last speed (rad/s), and the largest ratio."""
-    ranges = ranges_above(ratio["speed"].values, ratio.values, 1.0)
-    ends = f"{ranges[0].begin:.0f}, {ranges[-1].end:.0f}" if ranges else "-"
-    return [f"{length_of(ranges):.0f}", ends, f"{float(ratio.max()):.2f}"]
+def _bars(axes: Axes, drawn: Mapping[str, Mapping[str, Sequence[SpeedRange]]]) -> None:
+    """Ranges of speeds by kind of rotor, a line for each, those in most revolutions on those of any."""
+    for place, ranges in enumerate(drawn.values()):
+        for (label, parts), colour in zip(ranges.items(), ("#F2C6A7", "#D55E00"), strict=True):
+            # a thin edge, so that what is narrower than a dot is seen
+            bars = [(part.begin, part.length) for part in parts]
+            axes.broken_barh(bars, (place - 0.3, 0.6), color=colour, linewidth=0.5, label=label if place == 0 else "")
+    axes.set(yticks=np.arange(len(drawn)), yticklabels=list(drawn), ylim=(len(drawn) - 0.5, -0.5))
+    axes.grid(visible=False, axis="y")

@@ -9,10 +9,13 @@ import xarray as xr
 
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted, largest_stress_text
-from r37core.results.exceedance import length_of, ranges_above
+from r37core.results.columns import LENGTHS, MOST_REVOLUTIONS, names
+from r37core.results.danger import danger_of
 from r37core.results.joining import Along
 from r37core.results.table_file import read_table
+from r37core.results.variables import OF_ALL_SPEEDS as OF_ALL_RUNS
 from r37core.results.variables import STATUS
+from r37core.time_integration.rotor_numbers import span_maxima
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
@@ -29,8 +32,10 @@ VARIABLES = {
         _BLADES, "Pa", "largest von Mises stress of the last half of the run in the region that decides", "f4"
     ),
     "blade_von_mises": Variable((*_BLADES, "stress_span"), "Pa", "largest von Mises stress in the span", "f4"),
+    "blade_share_of_revolutions_above_yield": Variable(
+        _BLADES, "1", "share of the last half's revolutions in which that stress exceeds yield"
+    ),
     "leader": Variable((), "1", "number of the blade with the largest blade_rms; where the run diverged, that did first", "i4"),
-    "blades_ever_above_yield": Variable((), "1", "share of the blades above yield in any revolution of the last half"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
     "nodal_diameter_share": Variable(
@@ -44,10 +49,11 @@ VARIABLES = {
     "blade_frequency_factor": Variable(_BLADES, "1", "frequencies of the blade over those of the model"),
     "blade_longer": Variable(_BLADES, "m", "by how much the blade is longer than the model"),
     "yield_stress": Variable((), "Pa", "yield stress of the blade's material"),
+    "lined": OF_ALL_RUNS["lined"],
 }
 """Dimensions are those beyond the speed."""
 
-OF_ALL_SPEEDS = ("blade_angle", "blade_frequency_factor", "blade_longer", "yield_stress")
+OF_ALL_SPEEDS = ("blade_angle", "blade_frequency_factor", "blade_longer", "yield_stress", "lined")
 """Variables that no speed changes."""
 
 RUNS = Along(rows="run", dim="speed", names=(*VARIABLES, "speed"), coordinates=("blade", "scene", "speed"))
@@ -86,17 +92,33 @@ def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarra
     if "wear_harmonic" in run:
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_von_mises" in run:
-        row["stress_span"] = _ends(run["blade_von_mises"], run["stress_span_revolutions"], revolutions)
-        late = row["stress_span"] > int(run["statistic_end"]) - int(run["statistic_revolutions"])
-        row["blade_max_von_mises_ever"] = ever = run["blade_von_mises"][:, late].max(axis=1)
-        share = np.nan if run["status"] == RunStatus.DIVERGED else np.mean(ever > yield_stress)
-        row["blades_ever_above_yield"] = np.array(share)
+        stress = run["blade_von_mises"]
+        row["blade_von_mises"], length = span_maxima(stress)
+        row["stress_span"] = _ends(row["blade_von_mises"], length, revolutions)
+        judged = stress[:, _ends(stress, 1, revolutions) > int(run["statistic_end"]) - int(run["statistic_revolutions"])]
+        row["blade_max_von_mises_ever"] = judged.max(axis=1)
+        above = np.mean(judged > yield_stress, axis=1)
+        diverged = run["status"] == RunStatus.DIVERGED
+        row["blade_share_of_revolutions_above_yield"] = np.full_like(above, np.nan) if diverged else above
     return row
 
 
-def _ends(values: np.ndarray, span: np.ndarray, revolutions: int) -> np.ndarray:
+def _ends(values: np.ndarray, span: int | np.ndarray, revolutions: int) -> np.ndarray:
     """Last revolution of each span; the last one ends with the run."""
     return revolutions - np.arange(values.shape[-1])[::-1] * int(span)
+
+
+def worst_blade(rotor: xr.Dataset) -> xr.Dataset:
+    """The largest stress and share of revolutions above yield of any blade, as a single blade's response is judged by."""
+    worst = {
+        name: rotor[f"blade_{name}"].max("blade_number") for name in ("max_von_mises_ever", "share_of_revolutions_above_yield")
+    }
+    return xr.Dataset({**worst, **{name: rotor[name] for name in ("status", "yield_stress", "lined")}})
+
+
+def blades_above_yield(rotor: xr.Dataset) -> int:
+    """The most blades that are above yield in most revolutions at one speed; runs that diverged do not count."""
+    return int((rotor["blade_share_of_revolutions_above_yield"] > MOST_REVOLUTIONS).sum("blade_number").max())
 
 
 def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
@@ -108,19 +130,14 @@ def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
     for (blade, scene), file in files.items():
         dataset = read_dataset(file)
         speeds = dataset["speed"].values
-        diverged = dataset["status"].values == RunStatus.DIVERGED
         row = {"blade": blade, "scene": scene, "blades": dataset.sizes["blade_number"], "speeds": len(speeds)}
-        row["diverged_speeds"] = int(diverged.sum())
+        row["diverged_speeds"] = int((dataset["status"] == RunStatus.DIVERGED).sum())
         worst = int(np.nan_to_num(dataset["blade_rms"].max("blade_number").values).argmax())
         if "blade_max_von_mises_ever" in dataset:
-            stress = dataset["blade_max_von_mises_ever"].max("blade_number").values
-            worst = int(np.nan_to_num(stress).argmax())
-            ratio = np.where(diverged, np.inf, stress / float(dataset["yield_stress"]))
-            row |= {
-                "length_with_any_blade_above_yield_rad_s": length_of(ranges_above(speeds, ratio, 1.0)),
-                "largest_stress_pa": float(stress[worst]),
-                "blades_above_yield": float(dataset["blades_ever_above_yield"].max() * dataset.sizes["blade_number"]),
-            }
+            worst = int(np.nan_to_num(dataset["blade_max_von_mises_ever"].max("blade_number").values).argmax())
+            danger = danger_of(worst_blade(dataset))
+            row |= {name: danger[name] for name in (*names(LENGTHS), "largest_stress_pa")}
+            row["blades_above_yield"] = blades_above_yield(dataset)
         worst_run = dataset.isel(speed=worst)
         row |= {"worst_speed_rad_s": float(speeds[worst]), "leader_by_motion": int(worst_run["leader"])}
         if "blade_max_von_mises_ever" in dataset:

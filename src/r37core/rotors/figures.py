@@ -14,6 +14,8 @@ from r37core.figures import style
 from r37core.figures.maps import draw_cells
 from r37core.time_integration.status import RunStatus
 
+from .dataset import blades_above_yield
+
 _MOTION = "rms of the motion (mm)"
 _DECADES = 3.0
 _NAMED = 3
@@ -68,10 +70,10 @@ def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
     axes.plot(speeds, stress.median("blade_number"), "-", color="0.5", label="median blade")
     style.yield_lines(axes, {"": rotor["yield_stress"].item()}, named=True, linear=style.is_linear(rotor))
     axes.set_ylabel("largest von Mises (GPa)")
-    most = int(np.round(number * np.nan_to_num(float(rotor["blades_ever_above_yield"].max()))))
     lost = int(np.sum(rotor["status"].values == RunStatus.DIVERGED))
     diverged = f"\n{lost} of {len(speeds)} speeds diverged" if lost else ""
-    axes.set_title(f"at most {most} of {number} blades above yield at one speed{diverged}", fontsize=8)
+    above = f"at most {blades_above_yield(rotor)} of {number} blades above yield in most revolutions"
+    axes.set_title(f"{above}{diverged}", fontsize=8)
     axes.legend(loc="upper left", fontsize=6)
 
 

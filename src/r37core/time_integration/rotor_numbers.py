@@ -12,7 +12,7 @@ from .finished_run import FinishedRun
 from .kept_numbers import KEPT
 
 MOST_GROWTH = 200
-"""Spans of revolutions whose largest motion and stress are kept of each blade: a file stays small with many blades."""
+"""Spans of revolutions whose largest motion and stress are kept of each blade: a dataset stays small with many blades."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -40,8 +40,8 @@ class RotorRun(FinishedRun):
         `blade_number`, `blade_angle` (rad), `blade_frequency_factor`, `blade_longer` (m), `blade_rms` and `blade_peak` (m) over
         the last half, `blade_maximum` (m), shape (blades, spans), in spans of `span_revolutions` each, `blade_contact`, share
         of the time, and `blade_worn` (m3), of the lining. `leader`: number of the blade that leads. `nodal_diameter` and
-        `nodal_diameter_share`: see nodal_diameters. `blade_von_mises` (Pa): in spans of
-        `stress_span_revolutions`.
+        `nodal_diameter_share`: see nodal_diameters. `blade_von_mises` (Pa), shape (blades, revolutions): the `history`, in
+        single precision.
         """
         rotor, choice = self.rotor, self.problem.choice
         totals = np.array([state.totals for state in self.states])
@@ -64,8 +64,7 @@ class RotorRun(FinishedRun):
             **nodal_diameters(np.array([part[:, 0, KEPT] for part in half]), self.late, rotor),
         }
         if history is not None:
-            stresses, span = span_maxima(history)
-            numbers |= {"blade_von_mises": stresses, "stress_span_revolutions": np.array(span)}
+            numbers["blade_von_mises"] = history.astype(np.float32)
         return numbers
 
 
@@ -76,7 +75,7 @@ def _rms(samples: Sequence[np.ndarray]) -> np.ndarray:
 
 
 def span_maxima(values: np.ndarray) -> tuple[np.ndarray, int]:
-    """The largest of every span of revolutions along the last axis, in single precision, and how many revolutions it has.
+    """The largest of every span of revolutions along the last axis, in single precision, and how many revolutions a span has.
 
     There are at most MOST_GROWTH spans; the last one may be shorter.
     """
