@@ -57,7 +57,7 @@ class Terminal(io.StringIO):
 
 
 DURATIONS = Path(__file__).with_name("durations.json")
-"""Seconds of every test file in a run of all tests, the longest first: see `--record-durations`."""
+"""Seconds of every test file in a run of all tests, those of validation/tests, too: see `--record-durations`."""
 
 
 def pytest_addoption(parser):
@@ -67,10 +67,10 @@ def pytest_addoption(parser):
 def pytest_collection_modifyitems(items):
     """The longest files first, so that at the end no core waits for one of them; new ones first of all.
 
-    A test of a page in the browser is slow.
+    A test of a page in the browser, or of the sweep by Snakemake, is slow.
     """
     for item in items:
-        if "page" in item.fixturenames:
+        if {"page", "small_sweep"}.intersection(item.fixturenames):
             item.add_marker("slow")
     seconds = json.loads(DURATIONS.read_text())
     items.sort(key=lambda item: -seconds.get(item.path.name, float("inf")))
@@ -106,7 +106,8 @@ def pytest_terminal_summary(terminalreporter):
     for name, seconds in list(by_file.items())[:25]:
         terminalreporter.write_line(f"{seconds:8.1f} s {name}")
     if terminalreporter.config.getoption("--record-durations"):
-        DURATIONS.write_text(json.dumps(by_file, indent=1) + "\n")
+        seconds = Counter(json.loads(DURATIONS.read_text()) | by_file)
+        DURATIONS.write_text(json.dumps(dict(seconds.most_common()), indent=1) + "\n")
     if edited := edited_configuration():
         terminalreporter.write_line(f"config/ is edited ({', '.join(edited)}): the tests use tests/config/ instead")
 

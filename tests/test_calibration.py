@@ -57,6 +57,7 @@ def test_draws_of_two_branches_have_both():
     assert 0.35 < (cube[:, 0] < 0.5).mean() < 0.65
 
 
+@pytest.mark.slow
 def test_hidden_values_are_within_their_ranges():
     rng = np.random.default_rng(3)
     dataset, told = calibrated(peak, peak(2e-3, 0.2) * (1.0 + 0.05 * rng.standard_normal(8)))
@@ -69,17 +70,20 @@ def test_hidden_values_are_within_their_ranges():
     assert told[0] == "calibrate: round 0, 12 designs" and told[-1].endswith("of 8 points within 2 sigma")
 
 
+@pytest.mark.slow
 def test_numbers_of_which_only_the_product_counts_are_told_together():
     dataset, _ = calibrated(product, product(1e-3, 0.2))
     assert any("identifiable only together with scene.friction.coefficient" in note for note in notes(dataset, LENGTH.name))
     assert dataset["correlation"].values[0, 1] < -0.7
 
 
+@pytest.mark.slow
 def test_a_number_that_changes_nothing_is_not_told():
     dataset, _ = calibrated(lambda length, friction: peak(length, 0.2), peak(1e-3, 0.2))
     assert notes(dataset, FRICTION.name) == ["not identifiable by these measurements"]
 
 
+@pytest.mark.slow
 def test_a_point_on_another_branch_is_named_and_moves_nothing():
     measured = peak(1e-3, 0.2)
     measured[2] *= 4.0
@@ -89,6 +93,7 @@ def test_a_point_on_another_branch_is_named_and_moves_nothing():
     assert row["low_95"] < 1e-3 < row["high_95"]
 
 
+@pytest.mark.slow
 def test_measurements_that_no_values_give_disagree():
     dataset, _ = calibrated(peak, 3.0 - 2.0 * peak(1e-3, 0.1) / peak(1e-3, 0.1).max())
     assert dataset.attrs["disagrees"]

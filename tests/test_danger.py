@@ -24,6 +24,8 @@ from r37core.results.danger import danger_of
 from r37core.results.datasets import response_of
 from r37core.results.regions import read_judged
 
+pytestmark = pytest.mark.slow
+
 PAIRS = [(blade, scene) for blade in ("Open", "Heavy", "Fan") for scene in ("Stage", "Bare")]
 
 

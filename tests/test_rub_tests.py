@@ -63,6 +63,7 @@ def test_the_law_of_the_simulation_gives_its_numbers_back():
     np.testing.assert_allclose(split, rig_forces(depths, HIDDEN), rtol=1e-6, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("relative", [True, False])
 def test_ranges_of_95_percent_hold_the_hidden_numbers(relative):
     """Noise of 5%, of each force or of the largest one."""
@@ -77,6 +78,7 @@ def test_ranges_of_95_percent_hold_the_hidden_numbers(relative):
     assert max(held["plastic_modulus_pa"], held["tangent_modulus_pa"]) <= 198
 
 
+@pytest.mark.slow
 def test_a_line_through_the_origin_gives_a_contact_length_and_no_moduli():
     """It may be elastic or yield from the start; with the scene's moduli it is one number."""
     lining, depths = Lining(5e-3, 20e9, 5e9, 1.5, contact_length=2e-4), np.linspace(1e-5, 1e-3, 20)

@@ -116,6 +116,7 @@ def test_the_same_seed_proposes_the_same_designs_and_another_one_others(searches
     assert propose(SQUARE, recorded, 4, 1) == [design.values for design in searches[1][16:20]]
 
 
+@pytest.mark.slow
 def test_two_threads_propose_what_one_does(searches):
     """In a process of its own: the number of threads is read when linear algebra is loaded; the tests have one."""
     code = (

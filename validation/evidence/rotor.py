@@ -25,6 +25,7 @@ KINDS = {
     "mistuned_1": "1% of mistuning, seed 0",
     "mistuned_1_other": "1% of mistuning, seed 1",
     "mistuned_1_third": "1% of mistuning, seed 2",
+    "mistuned_1_twice": "seed 0, runs twice as long",
 }
 """Rotors of validation/decisions.yaml."""
 

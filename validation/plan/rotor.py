@@ -12,10 +12,9 @@ ROTORS = Run(
         "scenes_file": "validation/decisions.yaml",
         "scenes": [SINGLE, *KINDS],
         "blades": list(BLADES),
-        "fidelity": "draft",
         # slower blades of a mistuned rotor have their interactions at lower speeds
-        "speeds": [{"start": 1618, "stop": 1778, "step": 5}],
-        "speeds_for": [{"blades": ["CS100"], "speeds": [{"start": 1308, "stop": 1468, "step": 5}]}],
+        "speeds": [{"start": 1598, "stop": 1738, "step": 5}],
+        "speeds_for": [{"blades": ["CS100"], "speeds": [{"start": 1278, "stop": 1418, "step": 5}]}],
     },
 )
 

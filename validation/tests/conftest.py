@@ -11,7 +11,7 @@ sys.path[:0] = [str(CHECKOUT / name) for name in ("tests", "", "validation")]
 _spec = spec_from_file_location("conftest_of_the_product", CHECKOUT / "tests/conftest.py")
 _shared = module_from_spec(_spec)
 _spec.loader.exec_module(_shared)
-BEGIN_AND_END = ("pytest_configure", "pytest_unconfigure")
+HOOKS = ("pytest_configure", "pytest_collection_modifyitems", "pytest_unconfigure")
 globals().update(
-    {name: value for name, value in vars(_shared).items() if name in BEGIN_AND_END or not name.startswith(("_", "pytest_"))}
+    {name: value for name, value in vars(_shared).items() if name in HOOKS or not name.startswith(("_", "pytest_"))}
 )
