@@ -29,37 +29,51 @@ KINDS = {
 }
 """Rotors of validation/decisions.yaml."""
 
+MARGIN = 0.06
+"""Distance from 1B/4 that the pages advise, as a share of its speed."""
+
 COLUMNS = (
-    *("blade", "rotor", "above yield in most revolutions (rad/s)", "first, last (rad/s)", "ever above yield (rad/s)"),
-    *("ever first, last (rad/s)", "largest stress / yield", "most blades at once"),
+    *("blade", "rotor", "above yield in most revolutions (rad/s)", "first, last (rad/s)", "from 1B/4 (%)"),
+    *("ever above yield (rad/s)", "ever: first, last (rad/s)", "ever: from 1B/4 (%)"),
+    *("largest stress / yield", "most blades at once"),
 )
 
 
 def kinds(input: Any, output: Any, params: Any) -> None:
-    """Speeds above yield of a single blade and of rotors of it. Inputs: files of BLADES by scene. Outputs: table, picture."""
+    """Speeds above yield of a single blade and of rotors of it. Outputs: table, picture.
+
+    Inputs: files of BLADES by scene, campbell of each blade.
+    """
     rows = []
     figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.6, 5.0), layout="constrained")
     for place, (blade, axes) in enumerate(zip(BLADES, panels, strict=True)):
-        drawn = {}
+        drawn, campbell = {}, read_dataset(input.campbell[place])
+        crossing = float(campbell["crossing_speed"].sel(mode="1B", engine_order=4).squeeze())
         for kind, words in {SINGLE: "a single blade", **KINDS}.items():
             rotor = None if kind == SINGLE else read_dataset(input[kind][place])
             judged = read_judged(input[kind][place]) if rotor is None else worst_blade(rotor)
             most, _, ever = ranges_of(judged, exceedance_of(judged)).values()
-            drawn[words] = {"ever": ever, "in most revolutions": most}
+            drawn[words] = {"ever above yield": ever, "in most revolutions": most}
             blades = blades_above_yield(rotor) if rotor is not None else int(bool(most))
-            rows.append([blade, words, *_cells(most), *_cells(ever)])
+            rows.append([blade, words, *_cells(most, crossing), *_cells(ever, crossing)])
             rows[-1] += [f"{danger_of(judged)['largest_stress_over_yield']:.2f}", str(blades)]
         _bars(axes, drawn)
+        axes.axvspan((1.0 - MARGIN) * crossing, (1.0 + MARGIN) * crossing, color="0.92", zorder=0.5, label="6% from 1B/4")
+        axes.axvline(crossing, color="0.3", linestyle="--", linewidth=0.9, label="1B/4 of one blade")
         axes.set_title(blade, loc="left", fontweight="bold")
     panels[-1].set_xlabel(style.SPEED_LABEL)
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2, title="above yield")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     style.save(figure, output.picture)
     write_table(list(COLUMNS), rows, output.table)
 
 
-def _cells(ranges: Sequence[SpeedRange]) -> list[str]:
-    """Length of all ranges, and the first and last speed of all (rad/s)."""
-    return [f"{length_of(ranges):.0f}", f"{ranges[0].begin:.0f}, {ranges[-1].end:.0f}" if ranges else "-"]
+def _cells(ranges: Sequence[SpeedRange], crossing: float) -> list[str]:
+    """Length of all ranges, the first and last speed of all (rad/s), and how far these are from a `crossing` (rad/s)."""
+    if not ranges:
+        return ["0", "-", "-"]
+    ends = (ranges[0].begin, ranges[-1].end)
+    shares = ", ".join(f"{100.0 * (end / crossing - 1.0):+.1f}" for end in ends)
+    return [f"{length_of(ranges):.0f}", ", ".join(f"{end:.0f}" for end in ends), shares]
 
 
 def _bars(axes: Axes, drawn: Mapping[str, Mapping[str, Sequence[SpeedRange]]]) -> None:

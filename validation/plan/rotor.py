@@ -31,6 +31,7 @@ EVIDENCE = [
         {"table": table("rotor_kinds"), "picture": "docs/rotor.png"},
         {
             SINGLE: ROTORS.responses(BLADES, SINGLE),
+            "campbell": [f"{ROTORS.folder}/{blade}/campbell.nc" for blade in BLADES],
             **{kind: [f"{ROTORS.folder}/{blade}/{kind}/rotor.nc" for blade in BLADES] for kind in KINDS},
         },
     )
