@@ -33,8 +33,8 @@ MARGIN = 0.06
 """Distance from 1B/4 that the pages advise, as a share of its speed."""
 
 COLUMNS = (
-    *("blade", "rotor", "above yield in most revolutions (rad/s)", "first, last (rad/s)", "from 1B/4 (%)"),
-    *("ever above yield (rad/s)", "ever: first, last (rad/s)", "ever: from 1B/4 (%)"),
+    *("blade", "rotor", "above yield in most revolutions (rad/s)", "ranges (rad/s)", "from 1B/4 (%)"),
+    *("ever above yield (rad/s)", "ever: from 1B/4 (%)"),
     *("largest stress / yield", "most blades at once"),
 )
 
@@ -42,21 +42,22 @@ COLUMNS = (
 def kinds(input: Any, output: Any, params: Any) -> None:
     """Speeds above yield of a single blade and of rotors of it. Outputs: table, picture.
 
-    Inputs: files of BLADES by scene, campbell of each blade.
+    Inputs: files of BLADES by scene; campbell.
     """
-    rows = []
+    rows, crossings = [], read_dataset(input.campbell)["crossing_speed"].sel(mode="1B", engine_order=4)
     figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.6, 5.0), layout="constrained")
     for place, (blade, axes) in enumerate(zip(BLADES, panels, strict=True)):
-        drawn, campbell = {}, read_dataset(input.campbell[place])
-        crossing = float(campbell["crossing_speed"].sel(mode="1B", engine_order=4).squeeze())
+        drawn, crossing = {}, float(crossings.sel(blade=blade))
         for kind, words in {SINGLE: "a single blade", **KINDS}.items():
             rotor = None if kind == SINGLE else read_dataset(input[kind][place])
             judged = read_judged(input[kind][place]) if rotor is None else worst_blade(rotor)
             most, _, ever = ranges_of(judged, exceedance_of(judged)).values()
             drawn[words] = {"ever above yield": ever, "in most revolutions": most}
             blades = blades_above_yield(rotor) if rotor is not None else int(bool(most))
-            rows.append([blade, words, *_cells(most, crossing), *_cells(ever, crossing)])
-            rows[-1] += [f"{danger_of(judged)['largest_stress_over_yield']:.2f}", str(blades)]
+            where = ", ".join(f"{part.begin:.0f} to {part.end:.0f}" for part in most) or "-"
+            row = [blade, words, f"{length_of(most):.0f}", where, _distance(most, crossing)]
+            row += [f"{length_of(ever):.0f}", _distance(ever, crossing)]
+            rows.append([*row, f"{danger_of(judged)['largest_stress_over_yield']:.2f}", str(blades)])
         _bars(axes, drawn)
         axes.axvspan((1.0 - MARGIN) * crossing, (1.0 + MARGIN) * crossing, color="0.92", zorder=0.5, label="6% from 1B/4")
         axes.axvline(crossing, color="0.3", linestyle="--", linewidth=0.9, label="1B/4 of one blade")
@@ -67,13 +68,10 @@ def kinds(input: Any, output: Any, params: Any) -> None:
     write_table(list(COLUMNS), rows, output.table)
 
 
-def _cells(ranges: Sequence[SpeedRange], crossing: float) -> list[str]:
-    """Length of all ranges, the first and last speed of all (rad/s), and how far these are from a `crossing` (rad/s)."""
-    if not ranges:
-        return ["0", "-", "-"]
-    ends = (ranges[0].begin, ranges[-1].end)
-    shares = ", ".join(f"{100.0 * (end / crossing - 1.0):+.1f}" for end in ends)
-    return [f"{length_of(ranges):.0f}", ", ".join(f"{end:.0f}" for end in ends), shares]
+def _distance(ranges: Sequence[SpeedRange], crossing: float) -> str:
+    """How far the first and the last speed of all ranges are from a `crossing` (rad/s), in percent of it."""
+    ends = (ranges[0].begin, ranges[-1].end) if ranges else ()
+    return ", ".join(f"{100.0 * (end / crossing - 1.0):+.1f}" for end in ends) or "-"
 
 
 def _bars(axes: Axes, drawn: Mapping[str, Mapping[str, Sequence[SpeedRange]]]) -> None:

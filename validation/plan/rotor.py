@@ -3,7 +3,7 @@
 from evidence.plan import Item, Run, table
 from evidence.rotor import BLADES, KINDS, SINGLE
 
-from plan.runs import DECIDING
+from plan.runs import ALL_SPEEDS, DECIDING
 
 
 def _about(first: int, begin: int, end: int, last: int) -> list[dict[str, int]]:
@@ -31,7 +31,7 @@ EVIDENCE = [
         {"table": table("rotor_kinds"), "picture": "docs/rotor.png"},
         {
             SINGLE: ROTORS.responses(BLADES, SINGLE),
-            "campbell": [f"{ROTORS.folder}/{blade}/campbell.nc" for blade in BLADES],
+            "campbell": f"{ALL_SPEEDS.folder}/campbell.nc",
             **{kind: [f"{ROTORS.folder}/{blade}/{kind}/rotor.nc" for blade in BLADES] for kind in KINDS},
         },
     )
