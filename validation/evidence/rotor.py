@@ -12,7 +12,7 @@ from r37core.figures.style import plt
 from r37core.results.danger import danger_of, ranges_of
 from r37core.results.exceedance import SpeedRange, exceedance_of, length_of
 from r37core.results.regions import read_judged
-from r37core.rotors.dataset import blades_above_yield, worst_blade
+from r37core.results.table_file import read_table
 
 from .tables import write_table
 
@@ -42,18 +42,18 @@ COLUMNS = (
 def kinds(input: Any, output: Any, params: Any) -> None:
     """Speeds above yield of a single blade and of rotors of it. Outputs: table, picture.
 
-    Inputs: files of BLADES by scene; campbell.
+    Inputs: responses of BLADES by scene, of a rotor with the stress of any blade; campbell; rotors (csv).
     """
     rows, crossings = [], read_dataset(input.campbell)["crossing_speed"].sel(mode="1B", engine_order=4)
+    at_once = read_table(input.rotors).set_index(["blade", "scene"])["blades_above_yield"]
     figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.6, 5.0), layout="constrained")
     for place, (blade, axes) in enumerate(zip(BLADES, panels, strict=True)):
         drawn, crossing = {}, float(crossings.sel(blade=blade))
         for kind, words in {SINGLE: "a single blade", **KINDS}.items():
-            rotor = None if kind == SINGLE else read_dataset(input[kind][place])
-            judged = read_judged(input[kind][place]) if rotor is None else worst_blade(rotor)
+            judged = read_judged(input[kind][place])
             most, _, ever = ranges_of(judged, exceedance_of(judged)).values()
             drawn[words] = {"ever above yield": ever, "in most revolutions": most}
-            blades = blades_above_yield(rotor) if rotor is not None else int(bool(most))
+            blades = at_once.get((blade, kind), int(bool(most)))
             where = ", ".join(f"{part.begin:.0f} to {part.end:.0f}" for part in most) or "-"
             row = [blade, words, f"{length_of(most):.0f}", where, _distance(most, crossing)]
             row += [f"{length_of(ever):.0f}", _distance(ever, crossing)]

@@ -30,9 +30,9 @@ EVIDENCE = [
         "evidence.rotor.kinds",
         {"table": table("rotor_kinds"), "picture": "docs/rotor.png"},
         {
-            SINGLE: ROTORS.responses(BLADES, SINGLE),
+            **{kind: ROTORS.responses(BLADES, kind) for kind in (SINGLE, *KINDS)},
+            "rotors": f"{ROTORS.folder}/rotors.csv",
             "campbell": f"{ALL_SPEEDS.folder}/campbell.nc",
-            **{kind: [f"{ROTORS.folder}/{blade}/{kind}/rotor.nc" for blade in BLADES] for kind in KINDS},
         },
     )
 ]

@@ -9,12 +9,11 @@ import xarray as xr
 
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted, largest_stress_text
-from r37core.results.columns import LENGTHS, MOST_REVOLUTIONS, names
-from r37core.results.danger import danger_of
+from r37core.results.columns import MOST_REVOLUTIONS
 from r37core.results.joining import Along
 from r37core.results.table_file import read_table
-from r37core.results.variables import OF_ALL_SPEEDS as OF_ALL_RUNS
 from r37core.results.variables import STATUS
+from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.rotor_numbers import span_maxima
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
@@ -49,11 +48,10 @@ VARIABLES = {
     "blade_frequency_factor": Variable(_BLADES, "1", "frequencies of the blade over those of the model"),
     "blade_longer": Variable(_BLADES, "m", "by how much the blade is longer than the model"),
     "yield_stress": Variable((), "Pa", "yield stress of the blade's material"),
-    "lined": OF_ALL_RUNS["lined"],
 }
 """Dimensions are those beyond the speed."""
 
-OF_ALL_SPEEDS = ("blade_angle", "blade_frequency_factor", "blade_longer", "yield_stress", "lined")
+OF_ALL_SPEEDS = ("blade_angle", "blade_frequency_factor", "blade_longer", "yield_stress")
 """Variables that no speed changes."""
 
 RUNS = Along(rows="run", dim="speed", names=(*VARIABLES, "speed"), coordinates=("blade", "scene", "speed"))
@@ -87,33 +85,26 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
 def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
     """Numbers of one speed, and the coordinates that they need."""
     revolutions = len(run["revolution_maxima"])
-    span = _ends(run["blade_maximum"], run["span_revolutions"], revolutions)
-    row = run | {"yield_stress": np.array(yield_stress), "span": span}
+    row = run | {"yield_stress": np.array(yield_stress), "span": _ends(revolutions, int(run["span_revolutions"]))}
     if "wear_harmonic" in run:
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_von_mises" in run:
         stress = run["blade_von_mises"]
+        before = revolutions - stress.shape[1]
         row["blade_von_mises"], length = span_maxima(stress)
-        row["stress_span"] = _ends(row["blade_von_mises"], length, revolutions)
-        judged = stress[:, _ends(stress, 1, revolutions) > int(run["statistic_end"]) - int(run["statistic_revolutions"])]
-        row["blade_max_von_mises_ever"] = judged.max(axis=1)
-        above = np.mean(judged > yield_stress, axis=1)
-        diverged = run["status"] == RunStatus.DIVERGED
-        row["blade_share_of_revolutions_above_yield"] = np.full_like(above, np.nan) if diverged else above
+        row["stress_span"] = before + _ends(stress.shape[1], length)
+        judged = stress[:, max(0, int(run["statistic_end"]) - int(run["statistic_revolutions"]) - before) :]
+        if run["status"] == RunStatus.DIVERGED:
+            judged = np.full_like(judged, np.nan)
+        statistic = stress_statistic(judged, yield_stress)
+        row["blade_max_von_mises_ever"] = statistic["max_von_mises_ever"]
+        row["blade_share_of_revolutions_above_yield"] = statistic["share_of_revolutions_above_yield"]
     return row
 
 
-def _ends(values: np.ndarray, span: int | np.ndarray, revolutions: int) -> np.ndarray:
-    """Last revolution of each span; the last one ends with the run."""
-    return revolutions - np.arange(values.shape[-1])[::-1] * int(span)
-
-
-def worst_blade(rotor: xr.Dataset) -> xr.Dataset:
-    """The largest stress and share of revolutions above yield of any blade, as a single blade's response is judged by."""
-    worst = {
-        name: rotor[f"blade_{name}"].max("blade_number") for name in ("max_von_mises_ever", "share_of_revolutions_above_yield")
-    }
-    return xr.Dataset({**worst, **{name: rotor[name] for name in ("status", "yield_stress", "lined")}})
+def _ends(revolutions: int, span: int) -> np.ndarray:
+    """Last revolution of each span, of which the last one may be shorter."""
+    return np.minimum(np.arange(span, revolutions + span, span), revolutions)
 
 
 def blades_above_yield(rotor: xr.Dataset) -> int:
@@ -122,9 +113,10 @@ def blades_above_yield(rotor: xr.Dataset) -> int:
 
 
 def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
-    """A row for each blade and scene: how far any blade is above yield, at which speed most, and which blade leads there.
+    """A row for each blade and scene: the speed of the largest stress, how many blades are above yield, and which leads there.
 
-    Motion is `blade_rms`. A run that diverged is above yield, and counts as the worst where none ended.
+    Motion is `blade_rms`. A run that diverged counts as the worst where none ended. How long any blade is above yield is in
+    ranking.csv, as for single blades.
     """
     rows = []
     for (blade, scene), file in files.items():
@@ -135,8 +127,7 @@ def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
         worst = int(np.nan_to_num(dataset["blade_rms"].max("blade_number").values).argmax())
         if "blade_max_von_mises_ever" in dataset:
             worst = int(np.nan_to_num(dataset["blade_max_von_mises_ever"].max("blade_number").values).argmax())
-            danger = danger_of(worst_blade(dataset))
-            row |= {name: danger[name] for name in (*names(LENGTHS), "largest_stress_pa")}
+            row["largest_stress_pa"] = float(dataset["blade_max_von_mises_ever"][worst].max())
             row["blades_above_yield"] = blades_above_yield(dataset)
         worst_run = dataset.isel(speed=worst)
         row |= {"worst_speed_rad_s": float(speeds[worst]), "leader_by_motion": int(worst_run["leader"])}

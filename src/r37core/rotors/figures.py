@@ -58,7 +58,7 @@ def _draw_map(axes: Axes, rotor: xr.Dataset) -> None:
 
 
 def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
-    """Largest stress of any blade, coloured by how many are above yield; the median blade beside it."""
+    """Largest stress of any blade and of the median blade, and how many blades are above yield at once."""
     speeds, number = rotor["speed"].values, rotor.sizes["blade_number"]
     axes.set_xlabel(style.SPEED_LABEL)
     if "blade_max_von_mises_ever" not in rotor:
