@@ -19,15 +19,16 @@ from .tables import write_table
 BLADES = ("Ref", "CS100")
 """Blades of the rotors: without sweep, and with most speeds above yield on a lining."""
 
-SINGLE = "single"
 KINDS = {
+    "single": "a single blade",
+    "single_twice": "a single blade, runs twice as long",
     "equal": "36 equal blades",
     "mistuned_1": "1% of mistuning, seed 0",
     "mistuned_1_other": "1% of mistuning, seed 1",
     "mistuned_1_third": "1% of mistuning, seed 2",
     "mistuned_1_twice": "seed 0, runs twice as long",
 }
-"""Rotors of validation/decisions.yaml."""
+"""Scenes of validation/decisions.yaml."""
 
 AVOIDED, RUN = (-0.08, 0.04), (-0.08, 0.06)
 """Ranges about 1B/4, as shares of its speed: that the page advises to avoid, and that is run."""
@@ -46,10 +47,10 @@ def kinds(input: Any, output: Any, params: Any) -> None:
     """
     rows, crossings = [], read_dataset(input.campbell)["crossing_speed"].sel(mode="1B", engine_order=4)
     at_once = read_table(input.rotors).set_index(["blade", "scene"])["blades_above_yield"]
-    figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.6, 5.0), layout="constrained")
+    figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.6, 5.4), layout="constrained")
     for place, (blade, axes) in enumerate(zip(BLADES, panels, strict=True)):
         drawn, crossing = {}, float(crossings.sel(blade=blade))
-        for kind, words in {SINGLE: "a single blade", **KINDS}.items():
+        for kind, words in KINDS.items():
             judged = read_judged(input[kind][place])
             most, _, ever = ranges_of(judged, exceedance_of(judged)).values()
             drawn[words] = {"ever above yield": ever, "in most revolutions": most}
@@ -61,7 +62,8 @@ def kinds(input: Any, output: Any, params: Any) -> None:
         _bars(axes, drawn)
         axes.axvline(crossing, color="0.3", linestyle="--", linewidth=0.9, label="1B/4 of one blade")
         axes.set_xlim(*(crossing * (1.0 + share) for share in RUN))
-        axes.axvspan(*(crossing * (1.0 + share) for share in AVOIDED), color="0.92", zorder=0.5, label="-8% to +4% of it")
+        avoided = " to ".join(f"{share:+.0%}" for share in AVOIDED)
+        axes.axvspan(*(crossing * (1.0 + share) for share in AVOIDED), color="0.92", zorder=0.5, label=f"{avoided} of it")
         axes.set_title(blade, loc="left", fontweight="bold")
     panels[-1].set_xlabel(style.SPEED_LABEL)
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)

@@ -33,13 +33,14 @@ def test_rotors_are_judged_as_a_single_blade_is(tmp_path):
     whole = response(tmp_path / "rotor.nc", share_of_revolutions_above_yield=shares)
     axes = {"blade": list(rotor.BLADES), "mode": ["1B"], "engine_order": [4]}
     xr.Dataset({"crossing_speed": (tuple(axes), [[[810.0]], [[800.0]]])}, axes).to_netcdf(tmp_path / "campbell.nc")
-    at_once = [f"{blade},{kind},{12 if kind == 'equal' else 0}" for blade in rotor.BLADES for kind in rotor.KINDS]
+    at_once = [f"{blade},{kind},{12 if kind == 'equal' else 0}" for blade in rotor.BLADES for kind in ("equal", "mistuned_1")]
     (tmp_path / "rotors.csv").write_text("\n".join(["blade,scene,blades_above_yield", *at_once]))
-    files = Named({kind: [whole] * 2 for kind in rotor.KINDS}, single=[response(tmp_path / "single.nc")] * 2)
+    files = Named({kind: [whole] * 2 for kind in rotor.KINDS})
+    files["single"] = [response(tmp_path / "single.nc")] * 2
     files |= {"campbell": str(tmp_path / "campbell.nc"), "rotors": str(tmp_path / "rotors.csv")}
     output = Named(table=tmp_path / "table.csv", picture=tmp_path / "rotor.png")
     rotor.kinds(files, output, Named())
-    _, single, equal, *_ = read_table(tmp_path / "table.csv")
+    _, single, _, equal, *_ = read_table(tmp_path / "table.csv")
     assert single == ["Ref", "a single blade", "20", "805 to 825", "-0.6, +1.9", "29", "-1.2, +2.4", "2.00", "1"]
     assert equal == ["Ref", "36 equal blades", "18", "806 to 824", "-0.5, +1.7", "29", "-1.2, +2.4", "2.00", "12"]
     assert output.picture.stat().st_size > 10_000

@@ -76,7 +76,7 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
     if "max_von_mises_place" in run:
         values |= {f"max_von_mises_{name}": part for name, part in zip(PLACES, run["max_von_mises_place"].T, strict=True)}
     if "revolution_von_mises" in run:
-        values |= stress_statistic(_in_statistic(run), yield_stress)
+        values |= stress_statistic(in_statistic(run, "revolution_von_mises"), yield_stress)
         # histories of all revolutions are in single precision
         values["max_von_mises_ever"] = np.maximum(values["max_von_mises_ever"], run["max_von_mises_last_revolution"])
     if "alternating_stress" in run:
@@ -85,9 +85,9 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
     return values
 
 
-def _in_statistic(run: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Largest stress (Pa) in each region of each revolution in the statistic, shape (regions, revolutions)."""
-    history, revolutions, end = run["revolution_von_mises"], len(run["revolution_maxima"]), int(run["statistic_end"])
+def in_statistic(run: Mapping[str, np.ndarray], name: str) -> np.ndarray:
+    """A history of a run by its `name`, shape (..., revolutions), over the revolutions in the statistic alone."""
+    history, revolutions, end = run[name], len(run["revolution_maxima"]), int(run["statistic_end"])
     # a history of all revolutions has them in place, a shorter one is that of the last
     last = history[:, :end] if history.shape[1] == revolutions else history
     return last[:, -int(run["statistic_revolutions"]) :]

@@ -11,6 +11,7 @@ from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted, largest_stress_text
 from r37core.results.columns import MOST_REVOLUTIONS
 from r37core.results.joining import Along
+from r37core.results.response import in_statistic
 from r37core.results.table_file import read_table
 from r37core.results.variables import STATUS
 from r37core.stress.statistic import stress_statistic
@@ -90,10 +91,9 @@ def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarra
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_von_mises" in run:
         stress = run["blade_von_mises"]
-        before = revolutions - stress.shape[1]
         row["blade_von_mises"], length = span_maxima(stress)
-        row["stress_span"] = before + _ends(stress.shape[1], length)
-        judged = stress[:, max(0, int(run["statistic_end"]) - int(run["statistic_revolutions"]) - before) :]
+        row["stress_span"] = revolutions - stress.shape[1] + _ends(stress.shape[1], length)
+        judged = in_statistic(run, "blade_von_mises")
         if run["status"] == RunStatus.DIVERGED:
             judged = np.full_like(judged, np.nan)
         statistic = stress_statistic(judged, yield_stress)
