@@ -73,7 +73,7 @@ def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
     lost = int(np.sum(rotor["status"].values == RunStatus.DIVERGED))
     diverged = f"\n{lost} of {len(speeds)} speeds diverged" if lost else ""
     above = f"at most {blades_above_yield(rotor)} of {number} blades above yield in most revolutions"
-    axes.set_title(f"{above}{diverged}", fontsize=8)
+    axes.set_title(f"{above}{diverged}", fontsize=7)
     axes.legend(loc="upper left", fontsize=6)
 
 
