@@ -416,6 +416,19 @@ def test_python_of_the_pages_runs(root, finished, monkeypatch):
 
 
 @pytest.mark.slow
+def test_the_speeds_to_avoid_of_the_page_on_rotors(root, finished, monkeypatch, capsys):
+    """With all blades above yield at all speeds, and then at none."""
+    monkeypatch.chdir(finished)
+    block = re.search(r"```python\n(.*?)```", (root / "docs/rotor.md").read_text(), re.DOTALL)[1]
+    block = block.replace("results/runs/patches", "results")
+    crossing = float(xr.open_dataset("results/campbell.nc")["crossing_speed"].sel(blade="Ref", mode="1B", engine_order=4))
+    for factor, speeds in ((0.0, SPEEDS), (1e9, [])):
+        exec(block.replace("stress.yield_stress", f"{factor} * stress.yield_stress"), {})
+        shown = capsys.readouterr().out.strip(" []\n").split()
+        np.testing.assert_allclose([float(number) for number in shown], 100 * (np.array(speeds) / crossing - 1), rtol=1e-6)
+
+
+@pytest.mark.slow
 def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys):
     """With the small level in place of others, and speeds of its own."""
     monkeypatch.setattr("r37.call_configuration._PACKAGE", finished)
