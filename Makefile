@@ -46,7 +46,7 @@ lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 	$(BIN)/python -m snakemake --lint
 
 # the numbers of the engine first: what is behind them is out of date only if one of them moves; one model of the finest mesh at a time
-validation: $(VENV)/.docs ## tables and pictures of the pages that are out of date; EVERY=true all of them, in two hours
+validation: $(VENV)/.docs ## tables and pictures of the pages that are out of date; EVERY=true all of them, in two and a quarter hours
 	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) engine
 	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) --resources mem_mb=4600 $(if $(EVERY),--config every=$(EVERY))
 
