@@ -86,7 +86,7 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
 
 
 def in_statistic(run: Mapping[str, np.ndarray], name: str) -> np.ndarray:
-    """A history of a run by its `name`, shape (..., revolutions), over the revolutions in the statistic alone."""
+    """A history of a run by its `name`, shape (rows, revolutions), over the revolutions in the statistic alone."""
     history, revolutions, end = run[name], len(run["revolution_maxima"]), int(run["statistic_end"])
     # a history of all revolutions has them in place, a shorter one is that of the last
     last = history[:, :end] if history.shape[1] == revolutions else history
