@@ -10,6 +10,8 @@ from typing import Any
 import pandas as pd
 
 from r37core.base.io import atomic_write
+from r37core.rom.contact_model import write_contact_model
+from r37core.stress.operator import write_stress_operators
 
 from .blade_runs import Models, mesh_of, numbers_of_run, reduced_model, speeds_about_crossing, with_friction
 from .configuration import settings_of
@@ -44,15 +46,25 @@ CASES = {
 }
 
 
+def fine_models(input: Any, output: Any, params: Any) -> None:
+    """Models of a blade at `fine`. Params: blade, configuration. Outputs: contact, stress."""
+    models = models_at("fine", params)
+    write_contact_model(models.contact, output.contact)
+    write_stress_operators(models.stress, output.stress)
+
+
+def models_at(level: str, params: Any) -> Models:
+    """Models of a blade at a level."""
+    settings = settings_of(Path.cwd(), **params.configuration, fidelity=level)
+    return Models.of(reduced_model(mesh_of(settings, params.blade), settings, params.blade), settings, params.blade)
+
+
 def runs_of_blade(input: Any, output: Any, params: Any) -> None:
-    """Runs of a blade in all cases. Input: its models at `standard`. Params: blade, configuration."""
+    """Runs of a blade in all cases. Inputs: its models at `standard` and `fine`. Params: blade, configuration."""
     rows, speeds = [], []
     for level in ("standard", "draft", "fine"):
         settings = settings_of(Path.cwd(), **params.configuration, fidelity=level)
-        if level == "standard":
-            models = Models.read(input.contact, input.stress)
-        else:
-            models = Models.of(reduced_model(mesh_of(settings, params.blade), settings, params.blade), settings, params.blade)
+        models = Models.read(*input[level]) if level in input else models_at(level, params)
         speeds = speeds or speeds_about_crossing(models.contact, SHARES)
         for name, case in CASES.items():
             if case.level == level:

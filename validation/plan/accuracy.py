@@ -5,16 +5,20 @@ from evidence.plan import MADE, Item, table
 from plan.runs import ALL_SPEEDS, BLADES, DECIDING
 
 PATCHES = {blade: f"{MADE}/accuracy_{blade}.csv" for blade in BLADES}
+FINE = {blade: {kind: f"{MADE}/fine/{blade}_{kind}.npz" for kind in ("contact", "stress")} for blade in BLADES}
 
 EVIDENCE = [
+    *(
+        # the model of the finest mesh takes 3 GB
+        Item("evidence.accuracy.fine_models", models, params={"blade": blade, "configuration": DECIDING}, memory_mb=3600)
+        for blade, models in FINE.items()
+    ),
     *(
         Item(
             "evidence.accuracy.runs_of_blade",
             {"runs": file},
-            ALL_SPEEDS.models(blade),
+            {"standard": list(ALL_SPEEDS.models(blade).values()), "fine": list(FINE[blade].values())},
             {"blade": blade, "configuration": DECIDING},
-            # the model of the finest mesh takes 3 GB
-            memory_mb=3600,
         )
         for blade, file in PATCHES.items()
     ),

@@ -6,32 +6,31 @@ from plan.runs import ALL_SPEEDS, BLADES, DECIDING, SCENES
 
 LINED = [f"{kind}_abradable" for kind in ("twice", "friction")]
 BARE = [f"{kind}_direct" for kind in ("twice", "friction", "elastic")]
-# on the bare casing all speeds count, on the lining those about 1B/4, with carried motions; CS100's are in runs of its own
+# on the bare casing all speeds count, on the lining those about 1B/4, with carried motions; CS100 has its 1B/4 elsewhere
 COARSE = [{"start": 750, "stop": 2000, "step": 50}]
-ABOUT_1B_4, OF_CS100 = (1540, 1780), (1300, 1440)
+ABOUT_1B_4 = {"": (1540, 1780), "_CS100": (1300, 1440)}
 CARRIED = ALL_SPEEDS.content["second_motions"]
 
 
-def tried(name, lined, bare, ends=ABOUT_1B_4, **changes):
-    """A run of other scenes, at another level, or of other blades."""
-    first, last = ends
-    return Run(
-        name,
-        keys={
-            **DECIDING,
-            "scenes": [*lined, *bare],
-            "speeds": COARSE,
-            "speeds_for": [{"scenes": lined, "speeds": [{"start": first, "stop": last, "step": 10}]}],
-            "second_motions": {"scenes": lined, **CARRIED, "from_rad_s": first, "to_rad_s": last},
-            **changes,
-        },
-    )
+def tried(name, lined, bare, **changes):
+    """Runs of other scenes or at another level: one of each group of blades that have their 1B/4 at the same speeds."""
+    for group, (first, last) in ABOUT_1B_4.items():
+        yield Run(
+            name + group,
+            keys={
+                **DECIDING,
+                "scenes": [*lined, *bare],
+                "blades": [blade for blade in BLADES if (blade == "CS100") == bool(group)],
+                "speeds": COARSE,
+                "speeds_for": [{"scenes": lined, "speeds": [{"start": first, "stop": last, "step": 10}]}],
+                "second_motions": {"scenes": lined, **CARRIED, "from_rad_s": first, "to_rad_s": last},
+                **changes,
+            },
+        )
 
 
-CASES = tried("cases", LINED, BARE)
-COARSER = tried("cases_draft", *[[scene] for scene in SCENES], fidelity="draft")
-CASES_CS100 = tried("cases_CS100", LINED, [], OF_CS100, blades=["CS100"])
-COARSER_CS100 = tried("cases_CS100_draft", ["material_abradable"], [], OF_CS100, blades=["CS100"], fidelity="draft")
+CASES, CASES_CS100 = tried("cases", LINED, BARE)
+COARSER, COARSER_CS100 = tried("cases_draft", *[[scene] for scene in SCENES], fidelity="draft")
 LINEAR = Run(
     "linear",
     keys={
@@ -57,8 +56,10 @@ EVIDENCE = [
         {
             "ranking": f"{ALL_SPEEDS.folder}/ranking.csv",
             "base": ALL_SPEEDS.responses(BLADES, *SCENES),
-            "bare": [file for scene in BARE for file in CASES.responses(BLADES, scene)],
-            "draft": COARSER.responses(BLADES, "direct"),
+            "bare": [
+                file for scene in BARE for run in (CASES, CASES_CS100) for file in run.responses(run.keys["blades"], scene)
+            ],
+            "draft": [file for run in (COARSER, COARSER_CS100) for file in run.responses(run.keys["blades"], "direct")],
             **MOTIONS,
             "lined": [f"{run.folder}/second_motions.nc" for run in (CASES, CASES_CS100)],
             "lined_draft": [f"{run.folder}/second_motions.nc" for run in (COARSER, COARSER_CS100)],

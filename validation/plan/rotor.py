@@ -12,7 +12,7 @@ def _about(first: int, begin: int, end: int, last: int) -> list[dict[str, int]]:
     return [{"start": start, "stop": stop, "step": step} for start, stop, step in ends]
 
 
-ALONE = ["single", "single_twice"]
+ALONE, LONG = ["single", "single_twice"], ["mistuned_1_twice"]
 
 ROTORS = Run(
     "rotors",
@@ -26,6 +26,8 @@ ROTORS = Run(
         "speeds_for": [
             {"scenes": ALONE, "blades": ["CS100"], "speeds": [{"start": 1253, "stop": 1448, "step": 2.5}]},
             {"scenes": ALONE, "speeds": [{"start": 1538, "stop": 1778, "step": 2.5}]},
+            {"scenes": LONG, "blades": ["CS100"], "speeds": [{"start": 1258, "stop": 1448, "step": 10}]},
+            {"scenes": LONG, "speeds": [{"start": 1538, "stop": 1778, "step": 10}]},
             {"blades": ["CS100"], "speeds": _about(1258, 1278, 1418, 1448)},
         ],
     },
