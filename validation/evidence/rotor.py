@@ -30,8 +30,8 @@ KINDS = {
 }
 """Scenes of validation/decisions.yaml."""
 
-AVOIDED, RUN = (-0.08, 0.04), (-0.08, 0.06)
-"""Ranges about 1B/4, as shares of its speed: that the page advises to avoid, and that is run."""
+AVOIDED = (-8.0, 6.0)
+"""Range about 1B/4, in percent of its speed, that is run and that the page advises to avoid."""
 
 COLUMNS = (
     *("blade", "rotor", "above yield in most revolutions (rad/s)", "ranges (rad/s)", "from 1B/4 (%)"),
@@ -47,7 +47,7 @@ def kinds(input: Any, output: Any, params: Any) -> None:
     """
     rows, crossings = [], read_dataset(input.campbell)["crossing_speed"].sel(mode="1B", engine_order=4)
     at_once = read_table(input.rotors).set_index(["blade", "scene"])["blades_above_yield"]
-    figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.6, 5.4), layout="constrained")
+    figure, panels = plt.subplots(len(BLADES), 1, figsize=(5.6, 5.4), layout="constrained", sharex=True)
     for place, (blade, axes) in enumerate(zip(BLADES, panels, strict=True)):
         drawn, crossing = {}, float(crossings.sel(blade=blade))
         for kind, words in KINDS.items():
@@ -59,13 +59,11 @@ def kinds(input: Any, output: Any, params: Any) -> None:
             row = [blade, words, f"{length_of(most):.0f}", where, _distance(most, crossing)]
             row += [f"{length_of(ever):.0f}", _distance(ever, crossing)]
             rows.append([*row, f"{danger_of(judged)['largest_stress_over_yield']:.2f}", str(blades)])
-        _bars(axes, drawn)
-        axes.axvline(crossing, color="0.3", linestyle="--", linewidth=0.9, label="1B/4 of one blade")
-        axes.set_xlim(*(crossing * (1.0 + share) for share in RUN))
-        avoided = " to ".join(f"{share:+.0%}" for share in AVOIDED)
-        axes.axvspan(*(crossing * (1.0 + share) for share in AVOIDED), color="0.92", zorder=0.5, label=f"{avoided} of it")
-        axes.set_title(blade, loc="left", fontweight="bold")
-    panels[-1].set_xlabel(style.SPEED_LABEL)
+        _bars(axes, drawn, crossing)
+        axes.axvline(0.0, color="0.3", linestyle="--", linewidth=0.9, label="1B/4 of one blade")
+        axes.set_xlim(AVOIDED)
+        axes.set_title(f"{blade}, 1B/4 at {crossing:.0f} rad/s", loc="left", fontweight="bold")
+    panels[-1].set_xlabel("speed, from 1B/4 (%)")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     style.save(figure, output.picture)
     write_table(list(COLUMNS), rows, output.table)
@@ -74,15 +72,19 @@ def kinds(input: Any, output: Any, params: Any) -> None:
 def _distance(ranges: Sequence[SpeedRange], crossing: float) -> str:
     """How far the first and the last speed of all ranges are from a `crossing` (rad/s), in percent of it."""
     ends = (ranges[0].begin, ranges[-1].end) if ranges else ()
-    return ", ".join(f"{100.0 * (end / crossing - 1.0):+.1f}" for end in ends) or "-"
+    return ", ".join(f"{_percent(end, crossing):+.1f}" for end in ends) or "-"
 
 
-def _bars(axes: Axes, drawn: Mapping[str, Mapping[str, Sequence[SpeedRange]]]) -> None:
-    """Ranges of speeds by kind of rotor, a line for each, those in most revolutions on those of any."""
+def _percent(speed: float, crossing: float) -> float:
+    return 100.0 * (speed / crossing - 1.0)
+
+
+def _bars(axes: Axes, drawn: Mapping[str, Mapping[str, Sequence[SpeedRange]]], crossing: float) -> None:
+    """Ranges by kind of rotor, in percent from a `crossing`, a line for each, those in most revolutions on those ever."""
     for place, ranges in enumerate(drawn.values()):
         for (label, parts), colour in zip(ranges.items(), ("#F2C6A7", "#D55E00"), strict=True):
             # a thin edge, so that what is narrower than a dot is seen
-            bars = [(part.begin, part.length) for part in parts]
+            bars = [(_percent(part.begin, crossing), 100.0 * part.length / crossing) for part in parts]
             axes.broken_barh(bars, (place - 0.3, 0.6), color=colour, linewidth=0.5, label=label if place == 0 else "")
     axes.set(yticks=np.arange(len(drawn)), yticklabels=list(drawn), ylim=(len(drawn) - 0.5, -0.5))
     axes.grid(visible=False, axis="y")
