@@ -1,6 +1,7 @@
 """Second motions: sweeps that carry the state on, where motions differ, what becomes of them, and the answers with them."""
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,6 +16,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.figures.response_curves import draw_response
+from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.remarks import remarks
 from r37core.results.other_motions import ranking_with_motions, summary_with_motions
@@ -25,9 +27,11 @@ from r37core.second_motions.dataset import dwell_dataset, pair_motions
 from r37core.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
 from r37core.second_motions.figures import draw_second_motions
 from r37core.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
+from r37core.second_motions.plan import runs_at_hand
 from r37core.second_motions.states import MotionLevels, SweptStates, levels_of, motions_differ, read_states, write_states
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
+from r37core.stress.statistic import UNKNOWN
 from r37core.time_integration.carrying import END_WEAR
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.motion_kind import KindNumbers
@@ -72,6 +76,23 @@ def test_the_motion_from_rest_is_the_run_of_the_pipeline(contact, tmp_path):
     np.testing.assert_equal({name: numbers[name] for name in expected}, expected)
 
 
+def test_a_run_from_rest_that_is_at_hand_is_not_made_again(contact, tmp_path):
+    once = sweep_of(contact, REST).run(tmp_path / "once")
+    at_hand = {float(read_speed(file)["speed"]): file for file in once[1:]}
+    again = sweep_of(contact, REST).run(tmp_path / "again", at_hand=at_hand)
+    assert again[1:] == once[1:] and len(list((tmp_path / "again").glob("*.npz"))) == 1
+    np.testing.assert_equal(read_speed(again[0]), read_speed(once[0]))
+
+
+@pytest.mark.parametrize(("motion", "lining", "speeds"), [(REST, "new", [1000, 1010]), (REST, "worn", []), (UP, "new", [])])
+def test_runs_of_the_pipeline_are_those_from_rest(root, motion, lining, speeds):
+    section = {"from_rad_s": 1000, "to_rad_s": 1010, "lining": lining, "scenes": ["abradable"]}
+    changes = {"second_motions": section, "scenes": ["abradable"], "speeds": [990, 1000, 1007, 1010]}
+    sweep = Sweep(read_settings(root, command_line_document(changes)))
+    files = runs_at_hand(sweep, SimpleNamespace(blade="Ref", scene="abradable", motion=motion))
+    assert [Path(file).stem for file in files] == [f"speed_{speed}" for speed in speeds]
+
+
 def test_a_sweep_begins_as_a_run_from_rest_that_goes_on(contact, tmp_path):
     first = read_speed(sweep_of(contact, UP).run(tmp_path)[0])
     simulation = Simulation(contact, 1300.0, GROWING, CHOICE)
@@ -106,11 +127,18 @@ def test_carried_motions_are_as_long_as_those_from_rest(contact, given, expected
     """Or as long as the configuration says, which the dataset of all motions has."""
     write_contact_model(contact, tmp_path / "contact.npz")
     plain = {"scene": GROWING, "choice": CHOICE, "sweep": replace(SWEEP, revolutions=given)}
-    params = {"code": "", "results": (), "kept": KEPT, "yield_stress": 1e9, "provenance": {"revolutions": 20}}
+    params = {
+        "code": "",
+        "results": (),
+        "kept": KEPT,
+        "yield_stress": 1e9,
+        "strengths": to_plain(UNKNOWN),
+        "provenance": {"revolutions": 20},
+    }
     params |= {name: to_plain(value) for name, value in plain.items()}
     for motion in MOTIONS:
         output = SimpleNamespace(response=tmp_path / f"{motion}.nc", states=tmp_path / f"{motion}.npz")
-        steps.carry(SimpleNamespace(model=tmp_path / "contact.npz"), output, SimpleNamespace(motion=motion, **params))
+        steps.carry(SimpleNamespace(model=tmp_path / "contact.npz", runs=[]), output, SimpleNamespace(motion=motion, **params))
     responses = [tmp_path / f"{motion}.nc" for motion in MOTIONS]
     states = read_states([tmp_path / f"{motion}.npz" for motion in MOTIONS])
     assert pair_motions(responses, states)["revolutions"].values.tolist() == [expected, expected, 20]

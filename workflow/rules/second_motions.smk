@@ -8,6 +8,7 @@ motion_files = motions_plan.motion_keys(motion_pairs)
 use rule step as second_motion_sweep with:
     input:
         unpack(sweep.run_inputs),
+        runs=lambda wildcards: motions_plan.runs_at_hand(sweep, wildcards),
     output:
         response=motions_plan.RESPONSE,
         states=motions_plan.STATES,
@@ -19,9 +20,10 @@ use rule step as second_motion_sweep with:
         **step("second_motions.steps.carry"),
         **motions_plan.parameters(sweep),
         motion=lambda wildcards: wildcards.motion,
-        results=lambda wildcards: [each for each in sweep.results(wildcards) if each in motions_plan.KEPT],
+        results=lambda wildcards: motions_plan.results(sweep, wildcards),
         kept=settings.fidelity.time_integration.kept,
         yield_stress=sweep.yield_stress,
+        strengths=sweep.strengths,
         provenance=made.sweep,
 
 

@@ -25,7 +25,6 @@ from r37core.stress.operator import StressOperators
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
-from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
 from r37core.time_integration.settling import remaining_drift, window_of
 from r37core.time_integration.simulate import TIP_POINTS, Simulation
@@ -87,20 +86,14 @@ class JudgedBlade:
         """The motion carried on from each speed (rad/s) to the next in an unworn lining, from rest at the first one."""
         step = resolved_problem(self.model, max(speeds), self.scene, self.choice).choice.time_step
         scene, choice = self.scene.grown, replace(self.long_choice, time_step=step)
-        files = self.parts.carried(speeds, (scene, choice), partial(self._carry, scene, choice))
+        files = self.parts.carried(speeds, (scene, choice), partial(self._run, scene, choice))
         return self._dataset(dict(zip(speeds, files, strict=True)))
 
-    def _carry(
-        self, scene: Scene, choice: IntegrationChoice, speed: float, motion: CarriedMotion | None
+    def _run(
+        self, scene: Scene, choice: IntegrationChoice, speed: float, motion: CarriedMotion | None = None
     ) -> dict[str, np.ndarray]:
-        """Numbers of a run that begins in a motion, and the motion at its end."""
+        """Numbers of a run, which may begin in a motion."""
         run = Simulation(self.model, speed, scene, choice).run(motion)
-        return self._numbers(run) | CarriedMotion.ended(run.problem, run.states[0]).arrays
-
-    def _run(self, scene: Scene, choice: IntegrationChoice, speed: float) -> dict[str, np.ndarray]:
-        return self._numbers(Simulation(self.model, speed, scene, choice).run())
-
-    def _numbers(self, run: FinishedRun) -> dict[str, np.ndarray]:
         return numbers_of_run(run, self.results, stress=self.stress, **self.kept)
 
     def _row(self, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:

@@ -11,8 +11,9 @@ from r37core.config.settings import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.sweep_plan import Sweep
+from r37core.time_integration.speed_run import OF_RUNS
 
-from .choice import MOTIONS
+from .choice import MOTIONS, REST
 from .section import SECTION, SecondMotionSection, pairs_of
 
 RESPONSE = "<results>/{blade}/{scene}/second_motions_{motion}.nc"
@@ -22,7 +23,7 @@ DATASET, TABLE = "<results>/second_motions.nc", "<results>/second_motions.csv"
 ALL_DWELLS, DWELL_TABLE = "<results>/second_motions_dwells.nc", "<results>/second_motions_dwells.csv"
 
 KEPT = ("stress", "static_stress", "wear", "energy", "casing", "motion_kind")
-"""Results of a scene that its sweeps keep, too."""
+"""Results of a scene that carried sweeps keep, too."""
 
 
 def motion_keys(pairs: Iterable[tuple[str, str]]) -> paths.Wildcards:
@@ -40,6 +41,18 @@ def parameters(sweep: Sweep) -> dict[str, Any]:
         # without any speed where there are none, as the rules are there all the same
         "sweep": to_plain(section.sweep()) if section.asked else None,
     }
+
+
+def runs_at_hand(sweep: Sweep, wildcards: Any) -> list[str]:
+    """Simulations of the pipeline that are those of the motion from rest, but on a lining that is worn; none if carried."""
+    choice, certain = sweep.settings.section(SECTION).sweep(), sweep.speed_plan(wildcards).certain
+    from_rest = wildcards.motion == REST and not choice.worn
+    return paths.speed_files(wildcards, [speed for speed in choice.speeds if from_rest and speed in certain])
+
+
+def results(sweep: Sweep, wildcards: Any) -> list[str]:
+    """Results of a sweep: from rest those of the pipeline's simulations."""
+    return [each for each in sweep.results(wildcards) if each in (OF_RUNS if wildcards.motion == REST else KEPT)]
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:

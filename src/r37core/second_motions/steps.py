@@ -20,7 +20,9 @@ from r37core.results.response import write_response
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import read_stress_operators
+from r37core.stress.statistic import Strengths
 from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.speed_file import read_speed
 
 from .choice import DOWN, MOTIONS, REST, DwellChoice, SweepChoice
 from .dataset import dwell_dataset, pair_motions
@@ -31,15 +33,17 @@ from .tables import dwell_table, range_table
 
 
 def carry(input: Any, output: Any, params: Any) -> None:
-    """Sweep through the speeds. Inputs: model, and stress if needed. Outputs: response (nc), states (npz).
+    """Sweep through the speeds. A sweep that was interrupted goes on.
 
-    Params: motion, scene, choice, sweep, results, kept, yield_stress, provenance, code. A sweep that was interrupted goes on.
+    Inputs: model, stress if needed, runs (from rest, at hand). Outputs: response (nc), states (npz).
+    Params: motion, scene, choice, sweep, results, kept, yield_stress, strengths, provenance, code.
     """
     stress = read_stress_operators(input.stress) if hasattr(input, "stress") else None
     run = CarriedSweep(*_swept(input, params), params.motion, params.results, params.kept, stress)
     parts, speeds = Path(f"{output.states}.parts"), run.sweep.speeds
     made_by = [params.motion, params.results, params.kept]
-    files = run.run(parts, [made_by, _made_of(params, input.model, *([input.stress] if stress else []))])
+    at_hand = {float(read_speed(file)["speed"]): Path(file) for file in as_list(input.runs)}
+    files = run.run(parts, [made_by, _made_of(params, input.model, *([input.stress] if stress else []))], at_hand)
     ascending = files[::-1] if params.motion == DOWN else files
     carried = {} if params.motion == REST else {"revolutions": run.carried_choice.revolutions}
     write_response(
@@ -48,6 +52,7 @@ def carry(input: Any, output: Any, params: Any) -> None:
         output.response,
         stress_history_speeds=(),
         yield_stress=params.yield_stress,
+        strengths=from_plain(Strengths, params.strengths),
         provenance={**params.provenance, "motion": params.motion, **carried},
     )
     write_states(ascending, speeds, run.scene.casing.clearance, output.states)

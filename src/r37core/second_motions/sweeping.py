@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -15,9 +16,7 @@ from r37core.sweep.parts import Parts
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
 from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.kept_numbers import whole
-from r37core.time_integration.settling import revolution_rms
-from r37core.time_integration.simulate import LEADING_EDGE, Simulation
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import numbers_of_run
 
 from .choice import DOWN, REST, UP, SweepChoice
@@ -45,18 +44,20 @@ class CarriedSweep:
         """Speeds (rad/s) in the order of the sweep."""
         return self.sweep.speeds[::-1] if self.motion == DOWN else self.sweep.speeds
 
-    def run(self, folder: Path, made_of: object = None) -> list[Path]:
+    def run(self, folder: Path, made_of: object = None, at_hand: Mapping[float, Path] = MappingProxyType({})) -> list[Path]:
         """Run all speeds; returns the file of each, in the order of the speeds.
 
-        A sweep that was interrupted goes on from its files in the `folder`. `made_of`: all that they follow from.
+        A sweep that was interrupted goes on from its files in the `folder`. `made_of`: all that they follow from. `at_hand`:
+        files of runs from rest that are there, by speed (rad/s).
         """
-        # from rest: as the sweep of the pipeline has it, with lobes that grow
-        run = (
-            self.run_on
-            if self.motion != REST
-            else lambda speed, _: self._numbers(Simulation(self.model, speed, self.scene, self.choice).run())
-        )
-        return Parts(folder, made_of).carried(self.speeds, None, run)
+        parts = Parts(folder, made_of)
+        if self.motion != REST:
+            return parts.carried(self.speeds, None, self.run_on)
+        return [at_hand.get(speed) or parts.file(speed, None, partial(self._from_rest, speed)) for speed in self.speeds]
+
+    def _from_rest(self, speed: float) -> dict[str, np.ndarray]:
+        """Numbers of a run as the sweep of the pipeline has it, with lobes that grow."""
+        return self._numbers(Simulation(self.model, speed, self.scene, self.choice).run())
 
     def run_on(self, speed: float, carried: CarriedMotion | None) -> dict[str, np.ndarray]:
         """Numbers of the revolutions at a speed (rad/s) from a motion on, in a casing with full-grown lobes.
@@ -85,7 +86,4 @@ class CarriedSweep:
 
     def _numbers(self, run: FinishedRun) -> dict[str, np.ndarray]:
         numbers = numbers_of_run(run, self.results, stress=self.stress, **self.kept)
-        choice, blade = run.problem.choice, run.records[0]
-        samples = whole(blade.samples, choice.revolutions * choice.samples_per_revolution, blade.diverged)
-        numbers["revolution_rms"] = revolution_rms(samples[:, LEADING_EDGE], choice.samples_per_revolution)
-        return numbers | CarriedMotion.ended(run.problem, run.states[0], keep_wear=self.sweep.worn).arrays
+        return numbers | CarriedMotion.ended(run.problem, run.states[0], keep_wear=True).arrays if self.sweep.worn else numbers

@@ -11,6 +11,7 @@ from r37core.rom.quadratic_terms import PATH_ERROR
 from r37core.stress.operator import StressOperators, operators_at
 
 from . import kept_numbers
+from .carrying import CarriedMotion
 from .fatigue_numbers import fatigue_numbers
 from .finished_run import FinishedRun
 from .initial_motion import InitialMotion
@@ -56,7 +57,7 @@ def run_speed(
     energies; the spectrum of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade,
     see RotorRun. `status` is that of the rotor: all blades end when one diverges, whose snapshots are
     kept then. With `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the
-    energies `initial_energy` (J).
+    energies `initial_energy` (J). Of a single blade also its motion as it ends, without the wear: CarriedMotion.
     Raises what Problem raises, and InitialMotionError.
     """
     simulation = simulation_of(model, speed, scene, choice)
@@ -118,6 +119,8 @@ def numbers_of_run(
         numbers["share_of_height_limit"] = np.array(model.quadratic.share_within(PATH_ERROR * scene.casing.clearance))
     numbers |= kept_numbers.limit_numbers(run, totals)
     numbers |= ending_numbers(run, samples)
+    if scene.rotor is None:
+        numbers |= CarriedMotion.ended(problem, run.states[0]).arrays
     if scene.casing.changes_with_speed:
         numbers["clearance"] = np.min([each.casing.clearance for each in run.problems], axis=0) + least_change(scene.casing)
     if "spectrum" in results:
@@ -150,7 +153,8 @@ def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str,
     """How a run ended, from the displacement `samples` (m) of each blade, shape (samples, 2, 3).
 
     `motion_at_end`: the worst MotionAtEnd of all blades; `settled_revolution`: after which a run ended as it had settled, else
-    NaN; `statistic_end`, `statistic_revolutions`: last revolution of the statistic, and how many it has.
+    NaN; `statistic_end`, `statistic_revolutions`: last revolution of the statistic, and how many it has; `revolution_rms` (m),
+    shape (revolutions,): of the leading edge, normal and tangential together, of all blades the largest.
     """
     ending, choice, casing = run.ending, run.problem.choice, run.problem.casing
     wear, clearance = max(float(state.wear.max(initial=0.0)) for state in run.states), float(np.min(casing.clearance))
@@ -164,6 +168,7 @@ def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str,
         "settled_revolution": np.array(float(ending.revolutions) if ending.settled else np.nan),
         "statistic_end": np.array(ending.revolutions),
         "statistic_revolutions": np.array(choice.revolutions_in_statistic),
+        "revolution_rms": kept_numbers.extended(np.max(rms, axis=0), choice.revolutions),
     }
 
 
