@@ -154,7 +154,7 @@ def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str,
 
     `motion_at_end`: the worst MotionAtEnd of all blades; `settled_revolution`: after which a run ended as it had settled, else
     NaN; `statistic_end`, `statistic_revolutions`: last revolution of the statistic, and how many it has; `revolution_rms` (m),
-    shape (revolutions,): of the leading edge, normal and tangential together, of all blades the largest.
+    of each revolution until the end: of the leading edge, normal and tangential together, of all blades the largest.
     """
     ending, choice, casing = run.ending, run.problem.choice, run.problem.casing
     wear, clearance = max(float(state.wear.max(initial=0.0)) for state in run.states), float(np.min(casing.clearance))
@@ -168,7 +168,7 @@ def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str,
         "settled_revolution": np.array(float(ending.revolutions) if ending.settled else np.nan),
         "statistic_end": np.array(ending.revolutions),
         "statistic_revolutions": np.array(choice.revolutions_in_statistic),
-        "revolution_rms": kept_numbers.extended(np.max(rms, axis=0), choice.revolutions),
+        "revolution_rms": np.max(rms, axis=0),
     }
 
 
