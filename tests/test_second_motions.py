@@ -27,7 +27,7 @@ from r37core.second_motions.dataset import dwell_dataset, pair_motions
 from r37core.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
 from r37core.second_motions.figures import draw_second_motions
 from r37core.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
-from r37core.second_motions.plan import runs_at_hand
+from r37core.second_motions.plan import results, runs_at_hand
 from r37core.second_motions.states import MotionLevels, SweptStates, levels_of, motions_differ, read_states, write_states
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
@@ -37,7 +37,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.motion_kind import KindNumbers
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed
-from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.speed_run import OF_RUNS, run_speed
 from r37core.time_integration.status import MotionKind, RunStatus
 
 CHOICE = IntegrationChoice(6.4e-6, 20, 62, integrator=EXACT_MODAL)
@@ -84,13 +84,34 @@ def test_a_run_from_rest_that_is_at_hand_is_not_made_again(contact, tmp_path):
     np.testing.assert_equal(read_speed(again[0]), read_speed(once[0]))
 
 
-@pytest.mark.parametrize(("motion", "lining", "speeds"), [(REST, "new", [1000, 1010]), (REST, "worn", []), (UP, "new", [])])
-def test_runs_of_the_pipeline_are_those_from_rest(root, motion, lining, speeds):
-    section = {"from_rad_s": 1000, "to_rad_s": 1010, "lining": lining, "scenes": ["abradable"]}
-    changes = {"second_motions": section, "scenes": ["abradable"], "speeds": [990, 1000, 1007, 1010]}
-    sweep = Sweep(read_settings(root, command_line_document(changes)))
-    files = runs_at_hand(sweep, SimpleNamespace(blade="Ref", scene="abradable", motion=motion))
-    assert [Path(file).stem for file in files] == [f"speed_{speed}" for speed in speeds]
+@pytest.mark.parametrize(
+    ("motion", "changes", "speeds"),
+    [
+        (REST, {}, ["1000", "1010"]),
+        # in the last digit another number than the sweep's
+        (
+            REST,
+            {"from_rad_s": None, "to_rad_s": None, "from_rpm": 10_000, "to_rpm": 10_100, "step_rpm": 100},
+            ["1047.1975511965977"],
+        ),
+        (REST, {"lining": "worn"}, []),
+        (UP, {}, []),
+    ],
+)
+def test_runs_of_the_pipeline_are_those_from_rest(root, motion, changes, speeds):
+    """All of their results are, too, as one file has them with others that are made."""
+    section = {"from_rad_s": 1000, "to_rad_s": 1010, "scenes": ["abradable"], **changes}
+    keys = {"second_motions": section, "scenes": ["abradable"]}
+    rpm = {"speeds": None, "speeds_rpm": [10_000]} if "from_rpm" in section else {"speeds": [990, 1000, 1007, 1010]}
+    sweep = Sweep(read_settings(root, command_line_document(keys | rpm)))
+    asked = SimpleNamespace(blade="Ref", scene="abradable", motion=motion)
+    assert [Path(file).stem for file in runs_at_hand(sweep, asked)] == [f"speed_{speed}" for speed in speeds]
+    assert (results(sweep, asked) == [each for each in sweep.results(asked) if each in OF_RUNS]) == (motion == REST)
+
+
+def test_without_sweeps_no_run_is_at_hand(root):
+    sweep = Sweep(read_settings(root, command_line_document({})))
+    assert runs_at_hand(sweep, SimpleNamespace(blade="Ref", scene="abradable", motion=REST)) == []
 
 
 def test_a_sweep_begins_as_a_run_from_rest_that_goes_on(contact, tmp_path):

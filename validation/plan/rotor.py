@@ -21,7 +21,7 @@ ROTORS = Run(
         "scenes_file": "validation/decisions.yaml",
         "scenes": list(KINDS),
         "blades": list(BLADES),
-        # from 8% below 1B/4 to 6% above it: all that the page advises to avoid, and 2% more above it
+        # from 8% below 1B/4 to 6% above it: all that the page advises to avoid
         "speeds": _about(1538, 1598, 1738, 1778),
         "speeds_for": [
             {"scenes": ALONE, "blades": ["CS100"], "speeds": [{"start": 1253, "stop": 1448, "step": 2.5}]},

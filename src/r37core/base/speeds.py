@@ -124,8 +124,12 @@ def _refined(start: float, step: float, refine_to: float, last: int, unit: str) 
 
 def spaced(start: float, stop: float, step: float) -> list[float]:
     """Numbers from `start` to `stop`, both included, as far as the step goes."""
-    # rounded, so that a step like 0.1 gives the numbers a user would write
-    return [round(start + i * step, 9) for i in range(int((stop - start) / step + 1e-9) + 1)]
+    return [rounded(start + i * step) for i in range(int((stop - start) / step + 1e-9) + 1)]
+
+
+def rounded(number: float) -> float:
+    """A number as a user would write it, where a step is like 0.1 or in rpm."""
+    return round(number, 9)
 
 
 def exact_text(number: float) -> str:

@@ -4,6 +4,7 @@
 """
 
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 from r37core.base.speeds import exact_text
@@ -29,6 +30,11 @@ def fill(pattern: str, **wildcards: Any) -> str:
 def speed_files(wildcards: Any, speeds: Sequence[float]) -> list[str]:
     """Files of the simulations of a blade and scene at some speeds (rad/s)."""
     return [fill(SPEED, blade=wildcards.blade, scene=wildcards.scene, speed=exact_text(speed)) for speed in speeds]
+
+
+def speed_of(file: Path | str) -> float:
+    """Speed (rad/s) of the file of a simulation."""
+    return float(Path(file).stem.removeprefix("speed_"))
 
 
 Wildcards = list[dict[str, str]]

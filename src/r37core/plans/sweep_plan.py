@@ -89,8 +89,8 @@ class Sweep:
 
     def speeds(self, wildcards: Any, input: Any) -> list[float]:
         """Speeds (rad/s), ascending, of the files that are an input; a round stands there until the rounds are done."""
-        names = [Path(file).stem for file in as_list(input.speeds)]
-        return [float(name.removeprefix("speed_")) for name in names if name.startswith("speed_")]
+        files = [file for file in as_list(input.speeds) if Path(file).name.startswith("speed_")]
+        return list(map(paths.speed_of, files))
 
     def results(self, wildcards: Any) -> tuple[str, ...]:
         """Results requested for a blade and scene."""

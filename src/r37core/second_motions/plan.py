@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from r37core.base.plain import to_plain
+from r37core.base.speeds import rounded
 from r37core.base.yaml_file import KeyPath
 from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
@@ -45,9 +46,12 @@ def parameters(sweep: Sweep) -> dict[str, Any]:
 
 def runs_at_hand(sweep: Sweep, wildcards: Any) -> list[str]:
     """Simulations of the pipeline that are those of the motion from rest, but on a lining that is worn; none if carried."""
-    choice, certain = sweep.settings.section(SECTION).sweep(), sweep.speed_plan(wildcards).certain
-    from_rest = wildcards.motion == REST and not choice.worn
-    return paths.speed_files(wildcards, [speed for speed in choice.speeds if from_rest and speed in certain])
+    section = sweep.settings.section(SECTION)
+    if not section.asked or wildcards.motion != REST or section.sweep().worn:
+        return []
+    # in rpm they differ in the last digits
+    certain = {rounded(speed): speed for speed in sweep.speed_plan(wildcards).certain}
+    return paths.speed_files(wildcards, [certain[speed] for speed in section.sweep().speeds if speed in certain])
 
 
 def results(sweep: Sweep, wildcards: Any) -> list[str]:
@@ -63,7 +67,7 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 
 MOST_SPEEDS = 20_000
-"""Speeds of a sweep: one job runs all of them."""
+"""Speeds of a sweep: one job has all of them."""
 
 
 def can_be_swept(settings: Settings) -> None:

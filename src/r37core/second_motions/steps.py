@@ -12,9 +12,10 @@ from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list
 from r37core.base.origin import origin
 from r37core.base.plain import from_plain
-from r37core.base.speeds import exact_text
+from r37core.base.speeds import exact_text, rounded
 from r37core.contact.scene import Scene
 from r37core.machine_code.kept import content_digest, kept_file
+from r37core.plans.paths import speed_of
 from r37core.results.joining import Along, join_runs
 from r37core.results.response import write_response
 from r37core.results.table_file import write_table
@@ -22,7 +23,6 @@ from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import read_stress_operators
 from r37core.stress.statistic import Strengths
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.speed_file import read_speed
 
 from .choice import DOWN, MOTIONS, REST, DwellChoice, SweepChoice
 from .dataset import dwell_dataset, pair_motions
@@ -42,7 +42,7 @@ def carry(input: Any, output: Any, params: Any) -> None:
     run = CarriedSweep(*_swept(input, params), params.motion, params.results, params.kept, stress)
     parts, speeds = Path(f"{output.states}.parts"), run.sweep.speeds
     made_by = [params.motion, params.results, params.kept]
-    at_hand = {float(read_speed(file)["speed"]): Path(file) for file in as_list(input.runs)}
+    at_hand = {rounded(speed_of(file)): Path(file) for file in as_list(input.runs)}
     files = run.run(parts, [made_by, _made_of(params, input.model, *([input.stress] if stress else []))], at_hand)
     ascending = files[::-1] if params.motion == DOWN else files
     carried = {} if params.motion == REST else {"revolutions": run.carried_choice.revolutions}
