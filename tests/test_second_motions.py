@@ -27,7 +27,7 @@ from r37core.second_motions.dataset import dwell_dataset, pair_motions
 from r37core.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
 from r37core.second_motions.figures import draw_second_motions
 from r37core.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
-from r37core.second_motions.plan import results, runs_at_hand
+from r37core.second_motions.plan import finished_runs, results
 from r37core.second_motions.states import MotionLevels, SweptStates, levels_of, motions_differ, read_states, write_states
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
@@ -78,8 +78,8 @@ def test_the_motion_from_rest_is_the_run_of_the_pipeline(contact, tmp_path):
 
 def test_a_run_from_rest_that_is_at_hand_is_not_made_again(contact, tmp_path):
     once = sweep_of(contact, REST).run(tmp_path / "once")
-    at_hand = {float(read_speed(file)["speed"]): file for file in once[1:]}
-    again = sweep_of(contact, REST).run(tmp_path / "again", at_hand=at_hand)
+    finished = {float(read_speed(file)["speed"]): file for file in once[1:]}
+    again = sweep_of(contact, REST).run(tmp_path / "again", finished=finished)
     assert again[1:] == once[1:] and len(list((tmp_path / "again").glob("*.npz"))) == 1
     np.testing.assert_equal(read_speed(again[0]), read_speed(once[0]))
 
@@ -93,13 +93,13 @@ def test_runs_of_the_pipeline_are_those_from_rest(root, motion, changes, speeds)
     keys = {"second_motions": section, "scenes": ["abradable"], "speeds": [990, 1000, 1007, 1010.0000000000001]}
     sweep = Sweep(read_settings(root, command_line_document(keys)))
     asked = SimpleNamespace(blade="Ref", scene="abradable", motion=motion)
-    assert [Path(file).stem for file in runs_at_hand(sweep, asked)] == [f"speed_{speed}" for speed in speeds]
+    assert [Path(file).stem for file in finished_runs(sweep, asked)] == [f"speed_{speed}" for speed in speeds]
     assert (results(sweep, asked) == [each for each in sweep.results(asked) if each in OF_RUNS]) == (motion == REST)
 
 
 def test_without_sweeps_no_run_is_at_hand(root):
     sweep = Sweep(read_settings(root, command_line_document({})))
-    assert runs_at_hand(sweep, SimpleNamespace(blade="Ref", scene="abradable", motion=REST)) == []
+    assert finished_runs(sweep, SimpleNamespace(blade="Ref", scene="abradable", motion=REST)) == []
 
 
 def test_a_sweep_begins_as_a_run_from_rest_that_goes_on(contact, tmp_path):

@@ -8,7 +8,7 @@ motion_files = motions_plan.motion_keys(motion_pairs)
 use rule step as second_motion_sweep with:
     input:
         unpack(sweep.run_inputs),
-        runs=lambda wildcards: motions_plan.runs_at_hand(sweep, wildcards),
+        runs=lambda wildcards: motions_plan.finished_runs(sweep, wildcards),
     output:
         response=motions_plan.RESPONSE,
         states=motions_plan.STATES,

@@ -44,7 +44,7 @@ def parameters(sweep: Sweep) -> dict[str, Any]:
     }
 
 
-def runs_at_hand(sweep: Sweep, wildcards: Any) -> list[str]:
+def finished_runs(sweep: Sweep, wildcards: Any) -> list[str]:
     """Simulations of the pipeline that are those of the motion from rest, but on a lining that is worn; none if carried."""
     section = sweep.settings.section(SECTION)
     if not section.asked or wildcards.motion != REST or section.sweep().worn:

@@ -45,7 +45,7 @@ def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: floa
 
     Wear of carried linings is in single precision.
     """
-    runs = [_of_states(read_speed(each)) for each in files]
+    runs = [_state_numbers(read_speed(each)) for each in files]
     counted = [_counted(run) for run in runs]
     arrays = {name: np.array([run[name] for run in runs]) for name in ("status", *motion_names(runs[0]))}
     if END_WEAR in arrays:
@@ -55,7 +55,7 @@ def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: floa
         np.savez_compressed(partial, allow_pickle=False, **arrays)
 
 
-def _of_states(run: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+def _state_numbers(run: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """The little that counts of a run, as all of a sweep are in memory together."""
     needed = ("status", "statistic_end", "statistic_revolutions", "revolution_rms", *motion_names(run))
     return {name: run[name] for name in needed}

@@ -42,8 +42,8 @@ def carry(input: Any, output: Any, params: Any) -> None:
     run = CarriedSweep(*_swept(input, params), params.motion, params.results, params.kept, stress)
     parts, speeds = Path(f"{output.states}.parts"), run.sweep.speeds
     made_by = [params.motion, params.results, params.kept]
-    at_hand = {rounded(speed_of(file)): Path(file) for file in as_list(input.runs)}
-    files = run.run(parts, [made_by, _made_of(params, input.model, *([input.stress] if stress else []))], at_hand)
+    finished = {rounded(speed_of(file)): Path(file) for file in as_list(input.runs)}
+    files = run.run(parts, [made_by, _made_of(params, input.model, *([input.stress] if stress else []))], finished)
     ascending = files[::-1] if params.motion == DOWN else files
     carried = {} if params.motion == REST else {"revolutions": run.carried_choice.revolutions}
     write_response(

@@ -44,18 +44,18 @@ class CarriedSweep:
         """Speeds (rad/s) in the order of the sweep."""
         return self.sweep.speeds[::-1] if self.motion == DOWN else self.sweep.speeds
 
-    def run(self, folder: Path, made_of: object = None, at_hand: Mapping[float, Path] = MappingProxyType({})) -> list[Path]:
+    def run(self, folder: Path, made_of: object = None, finished: Mapping[float, Path] = MappingProxyType({})) -> list[Path]:
         """Run all speeds; returns the file of each, in the order of the speeds.
 
-        A sweep that was interrupted goes on from its files in the `folder`. `made_of`: all that they follow from. `at_hand`:
+        A sweep that was interrupted goes on from its files in the `folder`. `made_of`: all that they follow from. `finished`:
         files of runs from rest that are there, by speed (rad/s).
         """
         parts = Parts(folder, made_of)
         if self.motion != REST:
             return parts.carried(self.speeds, None, self.run_on)
-        return [at_hand.get(speed) or parts.file(speed, None, partial(self._from_rest, speed)) for speed in self.speeds]
+        return [finished.get(speed) or parts.file(speed, None, partial(self._rest_numbers, speed)) for speed in self.speeds]
 
-    def _from_rest(self, speed: float) -> dict[str, np.ndarray]:
+    def _rest_numbers(self, speed: float) -> dict[str, np.ndarray]:
         """Numbers of a run as the sweep of the pipeline has it, with lobes that grow."""
         return self._numbers(Simulation(self.model, speed, self.scene, self.choice).run())
 
