@@ -7,6 +7,8 @@ import xarray as xr
 
 from r37core.base.dataset_file import read_dataset
 from r37core.base.rounding import rounded_to
+from r37core.results.columns import MOST_REVOLUTIONS
+from r37core.results.exceedance import exceedance_of
 from r37core.results.table_file import read_table
 
 from .tables import write_table
@@ -18,15 +20,36 @@ COLUMNS = {
 }
 """Column of the table, and that of tolerances.csv with its factor and digits."""
 
+FARTHEST = "farthest above yield, from the crossing (%)"
+"""Column of the highest speed at which any member is above yield in most revolutions."""
+
 UNKNOWN = "-"
 
 
 def ranges(input: Any, output: Any, params: Any) -> None:
-    """Nominal value and range of an interaction of each blade. Input: table. Params: mode, order. Output: table."""
-    table = read_table(input.table)
+    """Nominal value and range of an interaction of each blade, and how far a member is above yield in most revolutions.
+
+    Inputs: table, members, campbell. Params: mode, order. Output: table.
+    """
+    table, members = read_table(input.table), read_dataset(input.members).squeeze("scene")
+    crossings = read_dataset(input.campbell)["crossing_speed"].sel(mode=params.mode, engine_order=params.order)
     chosen = table[(table["mode"] == params.mode) & (table["engine_order"] == params.order)]
-    rows = [[row["blade"], *(ranged(row, *column) for column in COLUMNS.values())] for _, row in chosen.iterrows()]
-    write_table(["blade", *COLUMNS], rows, output.table)
+    rows = [
+        [
+            blade,
+            *(ranged(row, *column) for column in COLUMNS.values()),
+            farthest(members.sel(blade=blade), crossings.sel(blade=blade)),
+        ]
+        for blade, row in chosen.set_index("blade").iterrows()
+    ]
+    write_table(["blade", *COLUMNS, FARTHEST], rows, output.table)
+
+
+def farthest(members: xr.Dataset, crossing: Any) -> str:
+    """Highest speed at which any member is above yield in most revolutions, in percent from a `crossing` (rad/s)."""
+    runs = (members.sel(member=member) for member in members["member"])
+    ends = [part.end for run in runs for part in exceedance_of(run).ranges(MOST_REVOLUTIONS)]
+    return f"{100.0 * (max(ends) / float(crossing) - 1.0):+.1f}" if ends else UNKNOWN
 
 
 def ranged(row: pd.Series, name: str, factor: float, digits: int) -> str:

@@ -2,6 +2,8 @@
 
 from evidence.plan import Item, Run, table
 
+from plan.runs import ALL_SPEEDS
+
 # fewer speeds, for a wide interaction
 MEMBERS = Run(
     "tolerances",
@@ -18,7 +20,11 @@ EVIDENCE = [
     Item(
         "evidence.tolerances.ranges",
         {"table": table("tolerance_ranges")},
-        {"table": f"{MEMBERS.folder}/tolerances.csv"},
+        {
+            "table": f"{MEMBERS.folder}/tolerances.csv",
+            "members": f"{MEMBERS.folder}/tolerances.nc",
+            "campbell": f"{ALL_SPEEDS.folder}/campbell.nc",
+        },
         {"mode": "1B", "order": 4},
     ),
     Item("evidence.tolerances.numbers", {"table": table("tolerance_numbers")}, {"members": f"{MEMBERS.folder}/tolerances.nc"}),

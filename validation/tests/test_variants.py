@@ -60,3 +60,14 @@ def test_a_coefficient_whose_interval_holds_zero_is_a_dash():
     known = xr.Dataset({"rank_coefficient": 0.7, "rank_coefficient_low": 0.57, "rank_coefficient_high": 0.82})
     assert tolerances.coefficient(known) == "0.70 (0.57 to 0.82)"
     assert tolerances.coefficient(known.assign(rank_coefficient_low=-0.1)) == tolerances.UNKNOWN
+
+
+def test_the_farthest_speed_is_that_of_any_member():
+    shares = [[0.0, 0.0, 0.0, 0.0], [0.0, 0.8, 0.0, 0.0], [0.0, 0.0, 0.9, np.nan]]
+    members = xr.Dataset(
+        {"share_of_revolutions_above_yield": (("member", "speed"), shares), "status": (("member", "speed"), np.zeros((3, 4)))},
+        {"member": [0, 1, 2], "speed": [800.0, 810.0, 820.0, 830.0]},
+    )
+    assert tolerances.farthest(members.sel(member=[0, 1]), 800.0) == "+1.7"
+    assert tolerances.farthest(members, 800.0) == "+2.5"
+    assert tolerances.farthest(members.sel(member=[0]), 800.0) == tolerances.UNKNOWN
