@@ -1,4 +1,4 @@
-# Motions that a start from rest does not show: sweeps up and down with the state carried on, and dwells: a job for each motion.
+# Motions that a start from rest does not show: a job sweeps up or down with the state carried on, another one dwells.
 from r37core.second_motions import plan as motions_plan
 
 motion_pairs = motions_plan.pairs_of(settings)

@@ -128,7 +128,7 @@ def spaced(start: float, stop: float, step: float) -> list[float]:
 
 
 def rounded(number: float) -> float:
-    """A number as a user would write it, where a step is like 0.1 or in rpm."""
+    """A number without the last digits, which differ where it follows from a step like 0.1 or from rpm."""
     return round(number, 9)
 
 

@@ -45,11 +45,11 @@ def parameters(sweep: Sweep) -> dict[str, Any]:
 
 
 def finished_runs(sweep: Sweep, wildcards: Any) -> list[str]:
-    """Simulations of the pipeline that are those of the motion from rest, but on a lining that is worn; none if carried."""
+    """Files of the pipeline's runs that the motion from rest takes; none of carried motions or worn linings."""
     section = sweep.settings.section(SECTION)
     if not section.asked or wildcards.motion != REST or section.sweep().worn:
         return []
-    # in rpm they differ in the last digits
+    # the same speeds given in rpm differ in their last digits
     certain = {rounded(speed): speed for speed in sweep.speed_plan(wildcards).certain}
     return paths.speed_files(wildcards, [certain[speed] for speed in section.sweep().speeds if speed in certain])
 

@@ -35,7 +35,7 @@ from .tables import dwell_table, range_table
 def carry(input: Any, output: Any, params: Any) -> None:
     """Sweep through the speeds. A sweep that was interrupted goes on.
 
-    Inputs: model, stress if needed, runs (from rest, at hand). Outputs: response (nc), states (npz).
+    Inputs: model, stress if needed, runs (of the pipeline, for the motion from rest). Outputs: response (nc), states (npz).
     Params: motion, scene, choice, sweep, results, kept, yield_stress, strengths, provenance, code.
     """
     stress = read_stress_operators(input.stress) if hasattr(input, "stress") else None
