@@ -56,7 +56,7 @@ def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: floa
 
 
 def _state_numbers(run: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """What states are made of, of all numbers of a run: those of all speeds are in memory together."""
+    """Numbers of a run that its state is made of, without the others: those of all speeds are in memory together."""
     needed = ("status", "statistic_end", "statistic_revolutions", "revolution_rms", *motion_names(run))
     return {name: run[name] for name in needed}
 
