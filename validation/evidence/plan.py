@@ -35,11 +35,16 @@ Files = Mapping[str, str | Sequence[str]]
 
 @dataclass(frozen=True)
 class Run:
-    """A run of the product: overlays of config/ and keys on top of the shipped configuration; without a name the main job."""
+    """A run of the product: overlays of config/ and keys on top of the shipped configuration; without a name the main job.
+
+    `timed`: its files say what it costs, so nothing runs beside it.
+    """
 
     name: str
     overlays: tuple[str, ...] = ()
     keys: Mapping[str, Any] = field(default_factory=dict)
+    timed: bool = False
+    memory_mb: int = 3400
 
     @property
     def folder(self) -> str:
@@ -65,8 +70,8 @@ class Run:
 class Item:
     """A step of the evidence: its function, as `evidence.coriolis.peaks`, the files that it makes and reads, and parameters.
 
-    `alone`: on all cores. `sources`: files of the repository that it is made from, which count by their content.
-    `program`: one that it needs and that pip does not install.
+    `whole_product`: runs the product, by commands of a page. `sources`: files of the repository that it is made from, which
+    count by their content. `program`: one that it needs and that pip does not install.
     """
 
     step: str
@@ -74,7 +79,7 @@ class Item:
     inputs: Files = field(default_factory=dict)
     params: Mapping[str, Any] = field(default_factory=dict)
     sources: Sequence[str] = ()
-    alone: bool = False
+    whole_product: bool = False
     memory_mb: int = 1000
     program: str = ""
 
@@ -147,19 +152,23 @@ class Plan:
         """The item, or the run, whose stamp has this name."""
         return self.items[name] if name in self.items else self.runs[name.removeprefix("product_")]
 
-    def alone(self, name: str) -> bool:
-        """Whether a part takes all cores: every run does."""
+    def product_cores(self, name: str, cores: int) -> int:
+        """Cores that a part gives to the product, of which one runs at a time, beside a light item: all `cores`, or none."""
         part = self.part(name)
-        return isinstance(part, Run) or part.alone
+        return cores if isinstance(part, Run) or part.whole_product else 0
+
+    def threads(self, name: str, cores: int) -> int:
+        """Threads that a part is planned with."""
+        part = self.part(name)
+        return cores if isinstance(part, Run) and part.timed else 1
 
     def without_program(self) -> dict[str, str]:
         """Items that cannot be made here, by name, and the program that is not installed."""
         return {item.name: item.program for item in self.items.values() if item.program and not shutil.which(item.program)}
 
     def memory_mb(self, name: str) -> int:
-        """Memory that a part is planned with; a run has the machine for itself."""
-        part = self.part(name)
-        return part.memory_mb if isinstance(part, Item) else 0
+        """Memory that a part is planned with; runs have room for two models of the level `standard`."""
+        return self.part(name).memory_mb
 
     def _hash_of(self, name: str) -> str:
         return hashlib.sha256("\n".join(self._parts_of(self.part(name))).encode()).hexdigest()[:16]

@@ -12,6 +12,6 @@ EVIDENCE = [
         {"table": table("assess"), "map": "docs/assess_map.png", "stress": "docs/assess_stress.png"},
         params={"page": "docs/assess.md"},
         sources=FAN,
-        alone=True,
+        whole_product=True,
     )
 ]
