@@ -47,7 +47,7 @@ lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 
 # the numbers of the engine first: what is behind them is out of date only if one of them moves. One run of the product, or one model
 # of the finest mesh, at a time, beside a light step
-validation: $(VENV)/.docs ## tables and pictures of the pages that are out of date; EVERY=true all of them, in two and a quarter hours
+validation: $(VENV)/.docs ## tables and pictures of the pages that are out of date; EVERY=true all of them, in two hours
 	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) engine
 	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) --resources mem_mb=4600 product_cores=$(CORES) $(if $(EVERY),--config every=$(EVERY))
 

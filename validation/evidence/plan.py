@@ -44,7 +44,6 @@ class Run:
     overlays: tuple[str, ...] = ()
     keys: Mapping[str, Any] = field(default_factory=dict)
     timed: bool = False
-    memory_mb: int = 3400
 
     @property
     def folder(self) -> str:
@@ -167,8 +166,9 @@ class Plan:
         return {item.name: item.program for item in self.items.values() if item.program and not shutil.which(item.program)}
 
     def memory_mb(self, name: str) -> int:
-        """Memory that a part is planned with; runs have room for two models of the level `standard`."""
-        return self.part(name).memory_mb
+        """Memory that a part is planned with; the product has room for two models of the level `standard`."""
+        part = self.part(name)
+        return 3400 if isinstance(part, Run) or part.whole_product else part.memory_mb
 
     def _hash_of(self, name: str) -> str:
         return hashlib.sha256("\n".join(self._parts_of(self.part(name))).encode()).hexdigest()[:16]

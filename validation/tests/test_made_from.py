@@ -1,9 +1,11 @@
 """Whether a committed file is out of date: its content and what it is made from decide, layout and file times do not."""
 
 import os
+import re
 import sys
 
 import pytest
+from conftest import CHECKOUT
 from evidence import plan as plans
 from evidence.made_from import RECORD, note, out_of_date
 from evidence.pages import renewed
@@ -96,3 +98,19 @@ def test_a_run_uses_the_entries_that_it_names_and_their_bases():
 def test_what_needs_a_program_that_is_missing_is_left_out(committed):
     more = [Item("evidence.steps.other", {"file": f"results/evidence/{name}.csv"}, program=name) for name in ("no_such", "sh")]
     assert committed[1](more=more).without_program() == {"no_such": "no_such"}
+
+
+def test_one_run_of_the_product_at_a_time_beside_a_light_step():
+    plan, makefile = Plan(CHECKOUT), (CHECKOUT / "Makefile").read_text()
+    (memory,) = map(int, re.findall(r"--resources mem_mb=(\d+) product_cores=\$\(CORES\)", makefile))
+    parts = [*plan.items, *(f"product_{name}" for name in plan.runs)]
+    product = {name for name in parts if plan.product_cores(name, 2)}
+    assert {"product_", "product_which_blade", "assess", "tutorial"} <= product
+    assert all(plan.product_cores(name, 2) == 2 for name in product)
+    # what a run costs is measured on a machine without other work
+    assert [name for name in parts if plan.threads(name, 2) == 2] == [
+        name for name in parts if name.startswith("product_estimate")
+    ]
+    largest = max(plan.memory_mb(name) for name in parts)
+    run, light = plan.memory_mb("product_"), plan.memory_mb("rotor_kinds")
+    assert run + light <= memory < largest + min(run, largest)
