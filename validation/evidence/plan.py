@@ -16,7 +16,7 @@ from functools import cache, cached_property
 from importlib import import_module
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import Any
+from typing import Any, ClassVar
 
 from r37core.base.io import as_list, write_json
 from r37core.base.yaml_file import load_yaml
@@ -44,6 +44,9 @@ class Run:
     overlays: tuple[str, ...] = ()
     keys: Mapping[str, Any] = field(default_factory=dict)
     timed: bool = False
+    runs_product: ClassVar[bool] = True
+    # room for two models of the level `standard`
+    memory_mb: ClassVar[int] = 3400
 
     @property
     def folder(self) -> str:
@@ -69,8 +72,8 @@ class Run:
 class Item:
     """A step of the evidence: its function, as `evidence.coriolis.peaks`, the files that it makes and reads, and parameters.
 
-    `whole_product`: runs the product, by commands of a page. `sources`: files of the repository that it is made from, which
-    count by their content. `program`: one that it needs and that pip does not install.
+    `runs_product`: on all cores, by itself. `sources`: files of the repository that it is made from, which count by their
+    content. `program`: one that it needs and that pip does not install.
     """
 
     step: str
@@ -78,9 +81,10 @@ class Item:
     inputs: Files = field(default_factory=dict)
     params: Mapping[str, Any] = field(default_factory=dict)
     sources: Sequence[str] = ()
-    whole_product: bool = False
+    runs_product: bool = False
     memory_mb: int = 1000
     program: str = ""
+    timed: ClassVar[bool] = False
 
     @property
     def name(self) -> str:
@@ -153,22 +157,19 @@ class Plan:
 
     def product_cores(self, name: str, cores: int) -> int:
         """Cores that a part gives to the product, of which one runs at a time, beside a light item: all `cores`, or none."""
-        part = self.part(name)
-        return cores if isinstance(part, Run) or part.whole_product else 0
+        return cores if self.part(name).runs_product else 0
 
     def threads(self, name: str, cores: int) -> int:
         """Threads that a part is planned with."""
-        part = self.part(name)
-        return cores if isinstance(part, Run) and part.timed else 1
+        return cores if self.part(name).timed else 1
 
     def without_program(self) -> dict[str, str]:
         """Items that cannot be made here, by name, and the program that is not installed."""
         return {item.name: item.program for item in self.items.values() if item.program and not shutil.which(item.program)}
 
     def memory_mb(self, name: str) -> int:
-        """Memory that a part is planned with; the product has room for two models of the level `standard`."""
-        part = self.part(name)
-        return 3400 if isinstance(part, Run) or part.whole_product else part.memory_mb
+        """Memory that a part is planned with, on two cores."""
+        return self.part(name).memory_mb
 
     def _hash_of(self, name: str) -> str:
         return hashlib.sha256("\n".join(self._parts_of(self.part(name))).encode()).hexdigest()[:16]

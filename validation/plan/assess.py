@@ -12,6 +12,7 @@ EVIDENCE = [
         {"table": table("assess"), "map": "docs/assess_map.png", "stress": "docs/assess_stress.png"},
         params={"page": "docs/assess.md"},
         sources=FAN,
-        whole_product=True,
+        runs_product=True,
+        memory_mb=2000,
     )
 ]

@@ -2,4 +2,4 @@
 
 from evidence.plan import ENGINE, Item
 
-EVIDENCE = [Item("evidence.engine_numbers.renew", {"numbers": ENGINE}, whole_product=True)]
+EVIDENCE = [Item("evidence.engine_numbers.renew", {"numbers": ENGINE})]

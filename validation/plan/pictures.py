@@ -17,14 +17,16 @@ EVIDENCE = [
         "evidence.user_code.worked_example",
         {"campbell": "docs/your_blade_campbell.png", "response": "docs/your_blade_response.png"},
         params={"page": "docs/your_blade.md"},
-        whole_product=True,
+        runs_product=True,
+        memory_mb=2000,
     ),
     Item(
         "evidence.tutorial.write",
         {"notebook": "docs/tutorial.ipynb"},
         params={"program": "docs/tutorial.py"},
         sources=["docs/tutorial.py"],
-        whole_product=True,
+        runs_product=True,
+        memory_mb=2000,
     ),
     # of the product's code alone: a test says whether it is fresh
     Item("evidence.key_tables.columns", {"table": table("columns")}),

@@ -3,6 +3,7 @@
 import os
 import re
 import sys
+from pathlib import Path
 
 import pytest
 from conftest import CHECKOUT
@@ -100,17 +101,19 @@ def test_what_needs_a_program_that_is_missing_is_left_out(committed):
     assert committed[1](more=more).without_program() == {"no_such": "no_such"}
 
 
-def test_one_run_of_the_product_at_a_time_beside_a_light_step():
-    plan, makefile = Plan(CHECKOUT), (CHECKOUT / "Makefile").read_text()
+def test_one_run_of_the_product_at_a_time_beside_a_light_step(monkeypatch):
+    monkeypatch.chdir(CHECKOUT)
+    plan, makefile = Plan(), Path("Makefile").read_text()
     (memory,) = map(int, re.findall(r"--resources mem_mb=(\d+) product_cores=\$\(CORES\)", makefile))
-    parts = [*plan.items, *(f"product_{name}" for name in plan.runs)]
-    product = {name for name in parts if plan.product_cores(name, 2)}
-    assert {"product_", "product_which_blade", "assess", "tutorial"} <= product
-    assert all(plan.product_cores(name, 2) == 2 for name in product)
+    runs = {f"product_{name}" for name in plan.runs}
+    modules = {name: item.step.split(".")[1] for name, item in plan.items.items()}
+    running = runs | {name for name, module in modules.items() if module in ("assess", "tutorial", "user_code")}
+    assert {name: plan.product_cores(name, 8) for name in runs | modules.keys()} == {
+        name: 8 if name in running else 0 for name in runs | modules.keys()
+    }
     # what a run costs is measured on a machine without other work
-    assert [name for name in parts if plan.threads(name, 2) == 2] == [
-        name for name in parts if name.startswith("product_estimate")
-    ]
-    largest = max(plan.memory_mb(name) for name in parts)
-    run, light = plan.memory_mb("product_"), plan.memory_mb("rotor_kinds")
-    assert run + light <= memory < largest + min(run, largest)
+    timed = {"product_estimate_standard", "product_estimate_to_decide"}
+    assert {name for name in runs | modules.keys() if plan.threads(name, 8) == 8} == timed
+    light, finest = plan.memory_mb("rotor_kinds"), plan.memory_mb("Ref_contact")
+    most, least = (extreme(plan.memory_mb(name) for name in running) for extreme in (max, min))
+    assert max(most, finest) + light <= memory < finest + min(least, finest)
