@@ -147,7 +147,7 @@ def kinematics_can_be_had(settings: Settings) -> None:
         document, key = settings.designs.document, (quadratic[0], "kinematics")
     if structure.coriolis:
         without = "structure.coriolis: true, which motions that follow a large one at once do not have"
-        costs = "coriolis: false, which moves the benchmark's peaks by 1 rad/s (docs/coriolis.md)"
+        costs = "coriolis: false, which moves the benchmark's peaks by 6 rad/s at most (docs/coriolis.md)"
         raise document.refusal(key, f"{value} with {without}", f"{LINEAR} or {ROTATING}, or {costs}")
     integrator = settings.fidelity.time_integration.integrator
     if integrator != EXACT_MODAL:
