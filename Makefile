@@ -45,11 +45,11 @@ lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 	$(BIN)/python -m mypy
 	$(BIN)/python -m snakemake --lint
 
-# the numbers of the engine first: what is behind them is out of date only if one of them moves. One run of the product, or one model
-# of the finest mesh, at a time, beside a light step
+# the numbers of the engine first: what is behind them is out of date only if one of them moves. Two runs of the product at a time,
+# or one model of the finest mesh beside a light step
 validation: $(VENV)/.docs ## tables and pictures of the pages that are out of date; EVERY=true all of them, in two hours
 	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) engine
-	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) --resources mem_mb=4600 product_cores=$(CORES) $(if $(EVERY),--config every=$(EVERY))
+	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) --resources mem_mb=4600 $(if $(EVERY),--config every=$(EVERY))
 
 test-validation: $(VENV)/.ready ## the tests of what makes the tables and pictures of the pages
 	$(BIN)/python -m pytest validation/tests $(SPREAD)

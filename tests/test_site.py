@@ -106,7 +106,7 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
         page.locator("article td a").first.click()
         assert page.locator("h1").inner_text().startswith("Table: ")
         assert page.locator("article tbody tr").count()
-        assert "product_cores=2 results/evidence/stamps/" in page.locator("article").inner_text()
+        assert "mem_mb=4600 results/evidence/stamps/" in page.locator("article").inner_text()
         assert page.problems == []
 
 

@@ -9,7 +9,7 @@ from r37core.console.failures import reported
 plan, name = Plan(), snakemake.wildcards.name
 # the same bits on any number of cores
 with reported(name, snakemake.log[0]), one_thread():
-    make(plan, name, snakemake.resources.product_cores)
+    make(plan, name, snakemake.threads)
     part = plan.part(name)
     if isinstance(part, Item):
         note(plan, part.files)

@@ -12,7 +12,7 @@ from evidence import pages, tables  # noqa: E402
 from evidence.plan import TABLES, Plan  # noqa: E402
 from written_pages import write_folder  # noqa: E402
 
-COMMAND = "snakemake -s validation/Snakefile --cores 2 --resources mem_mb=4600 product_cores=2"
+COMMAND = "snakemake -s validation/Snakefile --cores 2 --resources mem_mb=4600"
 
 
 def caption(step):

@@ -16,7 +16,7 @@ from functools import cache, cached_property
 from importlib import import_module
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import Any, ClassVar
+from typing import Any
 
 from r37core.base.io import as_list, write_json
 from r37core.base.yaml_file import load_yaml
@@ -37,16 +37,16 @@ Files = Mapping[str, str | Sequence[str]]
 class Run:
     """A run of the product: overlays of config/ and keys on top of the shipped configuration; without a name the main job.
 
-    `timed`: its files say what it costs, so nothing runs beside it.
+    `alone`: with nothing beside it, as its files say what it costs. `priority`: more for longer ones, which begin first.
+    `memory_mb`: for a model of the level `standard`.
     """
 
     name: str
     overlays: tuple[str, ...] = ()
     keys: Mapping[str, Any] = field(default_factory=dict)
-    timed: bool = False
-    runs_product: ClassVar[bool] = True
-    # room for two models of the level `standard`
-    memory_mb: ClassVar[int] = 3400
+    alone: bool = False
+    priority: int = 1
+    memory_mb: int = 2200
 
     @property
     def folder(self) -> str:
@@ -72,8 +72,8 @@ class Run:
 class Item:
     """A step of the evidence: its function, as `evidence.coriolis.peaks`, the files that it makes and reads, and parameters.
 
-    `runs_product`: on all cores, by itself. `sources`: files of the repository that it is made from, which count by their
-    content. `program`: one that it needs and that pip does not install.
+    `alone`: with nothing beside it, on all cores. `sources`: files of the repository that it is made from, which count by
+    their content. `program`: one that it needs and that pip does not install.
     """
 
     step: str
@@ -81,10 +81,10 @@ class Item:
     inputs: Files = field(default_factory=dict)
     params: Mapping[str, Any] = field(default_factory=dict)
     sources: Sequence[str] = ()
-    runs_product: bool = False
+    alone: bool = False
+    priority: int = 0
     memory_mb: int = 1000
     program: str = ""
-    timed: ClassVar[bool] = False
 
     @property
     def name(self) -> str:
@@ -155,21 +155,16 @@ class Plan:
         """The item, or the run, whose stamp has this name."""
         return self.items[name] if name in self.items else self.runs[name.removeprefix("product_")]
 
-    def product_cores(self, name: str, cores: int) -> int:
-        """Cores that a part gives to the product, of which one runs at a time, beside a light item: all `cores`, or none."""
-        return cores if self.part(name).runs_product else 0
-
     def threads(self, name: str, cores: int) -> int:
-        """Threads that a part is planned with."""
-        return cores if self.part(name).timed else 1
+        """Cores of a part: all where it is alone, half of them for a run, as one core waits while a run begins and ends."""
+        part = self.part(name)
+        if part.alone:
+            return cores
+        return max(cores // 2, 1) if isinstance(part, Run) else 1
 
     def without_program(self) -> dict[str, str]:
         """Items that cannot be made here, by name, and the program that is not installed."""
         return {item.name: item.program for item in self.items.values() if item.program and not shutil.which(item.program)}
-
-    def memory_mb(self, name: str) -> int:
-        """Memory that a part is planned with, on two cores."""
-        return self.part(name).memory_mb
 
     def _hash_of(self, name: str) -> str:
         return hashlib.sha256("\n".join(self._parts_of(self.part(name))).encode()).hexdigest()[:16]

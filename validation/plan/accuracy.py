@@ -9,8 +9,14 @@ FINE = {blade: {kind: f"{MADE}/fine/{blade}_{kind}.npz" for kind in ("contact", 
 
 EVIDENCE = [
     *(
-        # the model of the finest mesh takes 3 GB
-        Item("evidence.accuracy.fine_models", models, params={"blade": blade, "configuration": DECIDING}, memory_mb=3600)
+        # the model of the finest mesh takes 3 GB: one at a time, beside light items
+        Item(
+            "evidence.accuracy.fine_models",
+            models,
+            params={"blade": blade, "configuration": DECIDING},
+            priority=5,
+            memory_mb=3600,
+        )
         for blade, models in FINE.items()
     ),
     *(

@@ -26,6 +26,7 @@ def tried(name, lined, bare, **changes):
                 "second_motions": {"scenes": lined, **CARRIED, "from_rad_s": first, "to_rad_s": last},
                 **changes,
             },
+            priority=2,
         )
 
 

@@ -12,7 +12,6 @@ EVIDENCE = [
         {"table": table("assess"), "map": "docs/assess_map.png", "stress": "docs/assess_stress.png"},
         params={"page": "docs/assess.md"},
         sources=FAN,
-        runs_product=True,
-        memory_mb=2000,
+        alone=True,
     )
 ]

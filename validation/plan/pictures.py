@@ -17,16 +17,14 @@ EVIDENCE = [
         "evidence.user_code.worked_example",
         {"campbell": "docs/your_blade_campbell.png", "response": "docs/your_blade_response.png"},
         params={"page": "docs/your_blade.md"},
-        runs_product=True,
-        memory_mb=2000,
+        alone=True,
     ),
     Item(
         "evidence.tutorial.write",
         {"notebook": "docs/tutorial.ipynb"},
         params={"program": "docs/tutorial.py"},
         sources=["docs/tutorial.py"],
-        runs_product=True,
-        memory_mb=2000,
+        alone=True,
     ),
     # of the product's code alone: a test says whether it is fresh
     Item("evidence.key_tables.columns", {"table": table("columns")}),

@@ -52,8 +52,7 @@ EVIDENCE = [
             {"picture": f"docs/user_code/{name}.png"},
             params={"program": f"examples/figures/{name}.py"},
             sources=[f"examples/figures/{name}.py"],
-            runs_product=True,
-            memory_mb=2000,
+            alone=True,
         )
         for name in ("02_response", "03_two_blades", "09_tolerances")
     ),

@@ -31,6 +31,7 @@ ROTORS = Run(
             {"blades": ["CS100"], "speeds": [{"start": 1258, "stop": 1448, "step": 10}]},
         ],
     },
+    priority=3,
 )
 
 EVIDENCE = [

@@ -12,7 +12,7 @@ SCENES = ("material_abradable", "direct")
 MAIN = Run("")
 """The main job as shipped: `make all_blades` makes the same files."""
 
-ALL_SPEEDS = Run("which_blade", ("which_blade",))
+ALL_SPEEDS = Run("which_blade", ("which_blade",), priority=4)
 """The one set of runs: from rest every 2.5 rad/s; from rest, carried up and carried down every 5 rad/s, each as long."""
 
 DECIDING = {key: ALL_SPEEDS.content[key] for key in ("structure", "scenes_file", "scenes")}

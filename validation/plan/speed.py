@@ -6,8 +6,8 @@ from plan.runs import DECIDING
 
 EVERY_SPEED = {"blades": ["Ref"], "speeds": [{"start": 750, "stop": 2000, "step": 2.5}], "estimate": {"every": 50}}
 
-STANDARD = Run("estimate_standard", keys={**EVERY_SPEED, "fidelity": "standard"}, timed=True)
-TO_DECIDE = Run("estimate_to_decide", keys={**DECIDING, **EVERY_SPEED}, timed=True)
+STANDARD = Run("estimate_standard", keys={**EVERY_SPEED, "fidelity": "standard"}, alone=True)
+TO_DECIDE = Run("estimate_to_decide", keys={**DECIDING, **EVERY_SPEED}, alone=True)
 
 NAMES = {"benchmark": STANDARD, "to decide from": TO_DECIDE}
 

@@ -101,19 +101,16 @@ def test_what_needs_a_program_that_is_missing_is_left_out(committed):
     assert committed[1](more=more).without_program() == {"no_such": "no_such"}
 
 
-def test_one_run_of_the_product_at_a_time_beside_a_light_step(monkeypatch):
+def test_what_goes_beside_what(monkeypatch):
+    """Two runs of the product, or a model of the finest mesh and a light step; on all cores what takes them itself."""
     monkeypatch.chdir(CHECKOUT)
     plan, makefile = Plan(), Path("Makefile").read_text()
-    (memory,) = map(int, re.findall(r"--resources mem_mb=(\d+) product_cores=\$\(CORES\)", makefile))
-    runs = {f"product_{name}" for name in plan.runs}
+    (memory,) = map(int, re.findall(r"--resources mem_mb=(\d+) ", makefile))
     modules = {name: item.step.split(".")[1] for name, item in plan.items.items()}
-    running = runs | {name for name, module in modules.items() if module in ("assess", "tutorial", "user_code")}
-    assert {name: plan.product_cores(name, 8) for name in runs | modules.keys()} == {
-        name: 8 if name in running else 0 for name in runs | modules.keys()
-    }
-    # what a run costs is measured on a machine without other work
-    timed = {"product_estimate_standard", "product_estimate_to_decide"}
-    assert {name for name in runs | modules.keys() if plan.threads(name, 8) == 8} == timed
-    light, finest = plan.memory_mb("rotor_kinds"), plan.memory_mb("Ref_contact")
-    most, least = (extreme(plan.memory_mb(name) for name in running) for extreme in (max, min))
-    assert max(most, finest) + light <= memory < finest + min(least, finest)
+    alone = {name for name, module in modules.items() if module in ("assess", "tutorial", "user_code")}
+    alone |= {"product_estimate_standard", "product_estimate_to_decide"}
+    threads = {name: plan.threads(name, 8) for name in [*modules, *(f"product_{name}" for name in plan.runs)]}
+    assert {name for name, count in threads.items() if count == 8} == alone
+    assert {name for name, count in threads.items() if count == 4} == {f"product_{name}" for name in plan.runs} - alone
+    finest, run, light = (plan.part(name).memory_mb for name in ("Ref_contact", "product_", "rotor_kinds"))
+    assert max(finest + light, 2 * run) <= memory < min(finest + run, 2 * finest)
