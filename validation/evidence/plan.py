@@ -37,8 +37,8 @@ Files = Mapping[str, str | Sequence[str]]
 class Run:
     """A run of the product: overlays of config/ and keys on top of the shipped configuration; without a name the main job.
 
-    `alone`: with nothing beside it, as its files say what it costs. `priority`: more for longer ones, which begin first.
-    `memory_mb`: for a model of the level `standard`.
+    `alone`: with nothing beside it, as it measures its own time. `priority`: more for longer ones, which begin first.
+    `memory_mb`: the most that it takes, for a model of the level `standard`.
     """
 
     name: str
@@ -156,7 +156,7 @@ class Plan:
         return self.items[name] if name in self.items else self.runs[name.removeprefix("product_")]
 
     def threads(self, name: str, cores: int) -> int:
-        """Cores of a part: all where it is alone, half of them for a run, as one core waits while a run begins and ends."""
+        """Cores of a part: all where it is alone, half of them for a run, so that another one fills what it leaves idle."""
         part = self.part(name)
         if part.alone:
             return cores
@@ -242,5 +242,6 @@ def run_product(run: Run, targets: Sequence[str], cores: int) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     # a file of JSON is one of YAML
     write_json(run.content, file)
-    words = ["snakemake", *targets, "--cores", str(cores), "--nolock", "--configfile", "config/config.yaml", str(file)]
+    limits = ["--cores", str(cores), "--resources", f"mem_mb={run.memory_mb}"]
+    words = ["snakemake", *targets, *limits, "--nolock", "--configfile", "config/config.yaml", str(file)]
     subprocess.run([sys.executable, "-m", *words], check=True)

@@ -9,7 +9,7 @@ FINE = {blade: {kind: f"{MADE}/fine/{blade}_{kind}.npz" for kind in ("contact", 
 
 EVIDENCE = [
     *(
-        # the model of the finest mesh takes 3 GB: one at a time, beside light items
+        # 3 GB, so that no run fits beside it: first, as long as light items do
         Item(
             "evidence.accuracy.fine_models",
             models,

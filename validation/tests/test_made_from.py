@@ -1,4 +1,7 @@
-"""Whether a committed file is out of date: its content and what it is made from decide, layout and file times do not."""
+"""Whether a committed file is out of date: its content and what it is made from decide, layout and times do not.
+
+What runs beside what.
+"""
 
 import os
 import re
@@ -113,4 +116,9 @@ def test_what_goes_beside_what(monkeypatch):
     assert {name for name, count in threads.items() if count == 8} == alone
     assert {name for name, count in threads.items() if count == 4} == {f"product_{name}" for name in plan.runs} - alone
     finest, run, light = (plan.part(name).memory_mb for name in ("Ref_contact", "product_", "rotor_kinds"))
-    assert max(finest + light, 2 * run) <= memory < min(finest + run, 2 * finest)
+    assert max(finest + light, 2 * run) <= memory < min(finest + run, 2 * finest, 3 * run)
+    assert plan.threads("product_", 1) == 1
+    first = [
+        plan.part(name).priority for name in ("Ref_contact", "product_which_blade", "product_rotors", "product_", "blades")
+    ]
+    assert first == sorted(set(first), reverse=True)
