@@ -72,8 +72,8 @@ class Run:
 class Item:
     """A step of the evidence: its function, as `evidence.coriolis.peaks`, the files that it makes and reads, and parameters.
 
-    `alone`: with nothing beside it, on all cores. `sources`: files of the repository that it is made from, which count by
-    their content. `program`: one that it needs and that pip does not install.
+    `alone`: with nothing beside it, on all cores. `priority`: as of a run. `sources`: files of the repository that it is made
+    from, which count by their content. `program`: one that it needs and that pip does not install.
     """
 
     step: str

@@ -9,7 +9,7 @@ FINE = {blade: {kind: f"{MADE}/fine/{blade}_{kind}.npz" for kind in ("contact", 
 
 EVIDENCE = [
     *(
-        # 3 GB, so that no run fits beside it: first, as long as light items do
+        # the model of the finest mesh takes 3 GB and leaves no room for a run: first, while light items can go beside it
         Item(
             "evidence.accuracy.fine_models",
             models,

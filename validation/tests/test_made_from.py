@@ -1,6 +1,6 @@
 """Whether a committed file is out of date: its content and what it is made from decide, layout and times do not.
 
-What runs beside what.
+And which items and runs go beside each other.
 """
 
 import os
@@ -105,7 +105,7 @@ def test_what_needs_a_program_that_is_missing_is_left_out(committed):
 
 
 def test_what_goes_beside_what(monkeypatch):
-    """Two runs of the product, or a model of the finest mesh and a light step; on all cores what takes them itself."""
+    """Two runs of the product go at a time, or a model of the finest mesh and a light item; what uses all cores goes alone."""
     monkeypatch.chdir(CHECKOUT)
     plan, makefile = Plan(), Path("Makefile").read_text()
     (memory,) = map(int, re.findall(r"--resources mem_mb=(\d+) ", makefile))
@@ -116,6 +116,7 @@ def test_what_goes_beside_what(monkeypatch):
     assert {name for name, count in threads.items() if count == 8} == alone
     assert {name for name, count in threads.items() if count == 4} == {f"product_{name}" for name in plan.runs} - alone
     finest, run, light = (plan.part(name).memory_mb for name in ("Ref_contact", "product_", "rotor_kinds"))
+    assert f"--resources mem_mb={memory}" in Path("docs/site/table_pages.py").read_text()
     assert max(finest + light, 2 * run) <= memory < min(finest + run, 2 * finest, 3 * run)
     assert plan.threads("product_", 1) == 1
     first = [
