@@ -344,3 +344,16 @@ def test_programs_for_any_processor_give_the_same_bits(name, own_bits):
     printed = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment).stdout
     found = json.loads(printed)
     assert found and found == {run: own_bits[run] for run in found} and len(own_bits) - len(found) == (not coriolis)
+
+
+def test_only_own_leftovers_are_removed(tmp_path):
+    own = kept.kept_file("made.txt", 1, lambda file: file.write_text("made"), tmp_path)
+    foreign = [tmp_path / f".{name}.lock" for name in ("bashrc", "s.PGSQL.5432", f"x-{'0' * 31}", f"{'0' * 32}")]
+    left = tmp_path / f".{own.name}.lock"
+    for lock in (*foreign, left):
+        lock.touch()
+        (tmp_path / f"{lock.stem}.folder").mkdir()
+        (tmp_path / f"{lock.stem}.folder/file").touch()
+    kept.kept_file("other.txt", 2, lambda file: file.write_text("made"), tmp_path)
+    assert not left.exists() and not (tmp_path / f"{left.stem}.folder").exists()
+    assert all(lock.exists() and (tmp_path / f"{lock.stem}.folder/file").exists() for lock in foreign)

@@ -9,6 +9,7 @@ import fcntl
 import hashlib
 import logging
 import os
+import re
 import secrets
 import shutil
 import tempfile
@@ -145,9 +146,13 @@ def _alone(file: Path) -> Iterator[None]:
             return
 
 
+_OWN_LOCK = re.compile(r"\..*-[0-9a-f]{32}(\.\w+)?\.lock", re.DOTALL)
+"""Names of locks that `_alone` makes, from those of `_hashed`: the folder may be one that other programs use, too."""
+
+
 def _remove_abandoned(folder: Path) -> None:
     """Remove what killed processes left: the system has released their locks, while those of living processes are held."""
-    for name in folder.glob(".*.lock"):
+    for name in (file for file in folder.glob(".*.lock") if _OWN_LOCK.fullmatch(file.name)):
         with suppress(OSError), open(name, "ab") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if _is_at(lock, name):
