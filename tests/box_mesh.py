@@ -2,12 +2,15 @@
 
 from itertools import permutations, product
 
+import gmsh
 import numpy as np
 
+from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
 from r37core.mesh.blade_mesh import BladeMesh, parametric_node_sets
+from r37core.mesh.generate import quiet_gmsh
 
 TITANIUM = Material(115e9, 4400.0, 0.32, 9e8)
 
@@ -70,6 +73,14 @@ def write_deck(file, change=lambda text: text, element="hexahedron20"):
     """The plate's deck, changed as text."""
     write_abaqus(plate(element), file, TITANIUM, "plate")
     file.write_text(change(file.read_text()))
+
+
+def write_with_gmsh(mesh, file):
+    """A mesh in a format of gmsh's, .med or .bdf, as users convert the .msh file."""
+    write_mesh(mesh, file.with_suffix(".msh"))
+    with quiet_gmsh():
+        gmsh.open(str(file.with_suffix(".msh")))
+        gmsh.write(str(file))
 
 
 def inner_places(model, mesh):

@@ -6,7 +6,7 @@ import time
 
 import meshio
 import pytest
-from box_mesh import plate, write_deck
+from box_mesh import plate, write_deck, write_with_gmsh
 from defaults import MeshSource, Where
 
 from r37core.exchange.importing.import_mesh import import_mesh
@@ -22,7 +22,7 @@ def write_archive(mesh, file):
     meshlane.write(file, meshio.Mesh(mesh.points, dict(mesh.blocks)), file_format="ansysInp")
 
 
-WRITERS = {"msh": write_mesh, "bdf": write_mesh, "inp": lambda mesh, file: write_deck(file), "cdb": write_archive}
+WRITERS = {"msh": write_mesh, "bdf": write_with_gmsh, "inp": lambda mesh, file: write_deck(file), "cdb": write_archive}
 
 
 def cut_short(data, chance):

@@ -7,7 +7,6 @@ import warnings
 import zipfile
 from dataclasses import replace
 
-import meshio
 import numpy as np
 import pandas as pd
 import pytest
@@ -83,9 +82,9 @@ def test_stress_of_the_worst_instant(whole, mesh, steel, instant, tmp_path):
 
 def test_results_in_the_axes_of_another_program(whole, mesh, steel, instant, tmp_path):
     """Points, displacement and stress turn together: the same strain energy density, and elements the right way out."""
-    write_stress(mesh, whole, steel, instant, Target(tmp_path, ("vtu", "med")))
+    write_stress(mesh, whole, steel, instant, Target(tmp_path))
     ours = pyvista.read(tmp_path / "stress_1200.vtu")
-    write_stress(mesh, whole, steel, instant, Target(tmp_path, ("vtu", "med"), FOREIGN))
+    write_stress(mesh, whole, steel, instant, Target(tmp_path, FOREIGN))
     theirs = pyvista.read(tmp_path / "stress_1200.vtu")
     rows = FOREIGN.rows
     np.testing.assert_allclose((theirs.points - [5, 6, 7]) * 1e-3 @ rows.T, ours.points, atol=1e-12)
@@ -96,8 +95,6 @@ def test_results_in_the_axes_of_another_program(whole, mesh, steel, instant, tmp
     components = np.stack([back[:, a, b] for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))], axis=1)
     np.testing.assert_allclose(components, ours.point_data["stress"], atol=1e-6 * np.abs(components).max())
     assert theirs.compute_cell_sizes()["Volume"].min() > 0.0
-    again = meshio.read(tmp_path / "stress_1200.med")
-    np.testing.assert_allclose(again.point_data["displacement"], theirs.point_data["displacement"])
 
 
 def test_full_matrices_come_back(directory, model, boundary, reduction):

@@ -7,7 +7,7 @@ import gmsh
 import numpy as np
 import pytest
 import yaml
-from box_mesh import TITANIUM, box_mesh, plate, write_deck
+from box_mesh import TITANIUM, box_mesh, plate, write_deck, write_with_gmsh
 from defaults import MeshSource, Orientation, Where
 from pydantic import ValidationError
 
@@ -313,7 +313,7 @@ def test_a_long_chain_of_included_files(deck):
 )
 def test_bulk_data_that_is_cut_short_or_begins_after_its_end(tmp_path, change, lacking):
     """Without a card meshio waits for one for ever."""
-    write_mesh(plate(), tmp_path / "mesh.bdf")
+    write_with_gmsh(plate(), tmp_path / "mesh.bdf")
     (tmp_path / "mesh.bdf").write_text(change((tmp_path / "mesh.bdf").read_text()))
     with pytest.raises(ImportRefused, match=rf"mesh\.bdf: found no {lacking} in its bulk data; the file is empty, cut short"):
         read(tmp_path, "mesh.bdf")

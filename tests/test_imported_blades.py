@@ -275,8 +275,8 @@ def test_plan_of_exports(three):
     config = sweep.settings.config.model_copy(update={"speeds": [900.0, 950.5]})
     exports = Exports(replace(sweep, settings=replace(sweep.settings, config=config)))
     files = {file.removeprefix("<results>/exports/") for file in filled(exported_targets(exports.sweep))}
-    assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
-    assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
+    assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.msh", "Fan/stress_direct", "Given/matrices"} <= files
+    assert not files & {"Fan/surface.step", "Given/mesh.msh", "Given/modes", "Given/stress_direct"}
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")
     structure = Structure(sweep.settings)
     assert structure.whole_blade_model(fan) == "<results>/Fan/whole_blade_pressure_edge.nc"

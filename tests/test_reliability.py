@@ -122,8 +122,7 @@ DATASET = xr.Dataset({"a": (("x",), np.arange(20_000.0), about("m", "a"))}, {"x"
         lambda file: write_dataset(DATASET, file),
         lambda file: write_json([1.0] * 20_000, file),
         save_mesh,
-        lambda file: write_mesh(MESH, file.with_suffix(".bdf")),
-        lambda file: write_mesh(MESH, file.with_suffix(".med")),
+        lambda file: write_mesh(MESH, file.with_suffix(".msh")),
     ],
 )
 def test_a_file_that_may_not_be_as_large_is_one_line(tmp_path, write):
@@ -132,7 +131,7 @@ def test_a_file_that_may_not_be_as_large_is_one_line(tmp_path, write):
     resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, hard))
     try:
         with pytest.raises(
-            OutputFileError, match=r"a\.(nc|bdf|med): cannot be written: files may not be as large here; raise the limit"
+            OutputFileError, match=r"a\.(nc|msh): cannot be written: files may not be as large here; raise the limit"
         ):
             write(tmp_path / "a.nc")
     finally:
@@ -251,10 +250,10 @@ def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
     kept += ["exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "cases/L50/rom.nc", "runs/x/L50/a.nc"]
     gone = ["wear.nc", "designs.csv", "signals.nc", "Ref/direct/signals.nc", "figures/designs_Sweep.png"]
     gone += ["figures/contact_force_Ref__direct.png", "figures/contact_force_Ref__direct.pdf", "figures/shapes_Ref.png"]
-    gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf", "Ref/direct/speed_901.npz"]
+    gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.msh", "Ref/direct/speed_901.npz"]
     gone += ["figures/response_L50.png", "figures/comparison_abradable.pdf", "figures/wear_Ref__abradable.png"]
     folders = ["exports/L50", "L50", "Ref/abradable", "shapes/Ref", "shapes/L50"]
-    inside = ["exports/L50/mesh.bdf", "L50/mesh.vtu", "Ref/abradable/speed_900.npz", "shapes/L50/modes/modes_0.vtu"]
+    inside = ["exports/L50/mesh.msh", "L50/mesh.vtu", "Ref/abradable/speed_900.npz", "shapes/L50/modes/modes_0.vtu"]
     inside += [f"shapes/Ref/{name}_0.vtu" for name in ("modes/modes", "stress_direct/stress", "stress_abradable/stress")]
     for name in [*kept, *gone, *inside]:
         (results / name).parent.mkdir(parents=True, exist_ok=True)
@@ -263,7 +262,7 @@ def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
     assert found == {*gone, *folders}
 
     every = {"blades": ["Ref", "L50", "Sweep"], "scenes": ["abradable", "direct"], "speeds": [900, 901]}
-    every |= {"signals": {"speeds_rad_s": [900]}, "exports": {"mesh_formats": ["vtu", "bdf"]}}
+    every |= {"signals": {"speeds_rad_s": [900]}, "exports": {"mesh_formats": ["vtu", "msh"]}}
     scenes = config / "scenes.yaml"
     scenes.write_text(scenes.read_text().replace("stress, energy]", "stress, energy, shapes]\n  tip_line: camber", 1))
     with open(config / "blades.yaml", "a") as stream:

@@ -12,7 +12,7 @@ use rule step as exported_mesh with:
     log:
         "<logs>/exports/{blade}_mesh_{format}.log",
     wildcard_constraints:
-        format="msh|vtu|med|bdf|inp",
+        format="msh|vtu|inp",
     params:
         **step("exports.steps.mesh"),
         blade="{blade}",

@@ -1,15 +1,13 @@
-"""Results for other programs: modes and the worst stress on the mesh, as .vtu with a .pvd list or as .med."""
+"""Results for other programs: modes and the worst stress on the mesh, as .vtu with a .pvd list."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import meshio
 import numpy as np
 
 from r37core.base.io import atomic_write, write_text
 from r37core.base.speeds import exact_text
-from r37core.exchange.importing.meshio_reader import quietly
 from r37core.exchange.orientation import OURS, Orientation
 from r37core.fem.material import Material
 from r37core.fem.stress import recovered_stress, second_order_stress
@@ -30,10 +28,9 @@ _UPPER = ([0, 1, 2, 0, 1, 2], [0, 1, 2, 1, 2, 0])
 
 @dataclass(frozen=True)
 class Target:
-    """Where results go: a `folder`, the `formats` of the files (vtu, med), and unit and axes of what they hold."""
+    """Where results go: a `folder`, and unit and axes of what its files hold."""
 
     folder: Path
-    formats: tuple[str, ...] = ("vtu",)
     orientation: Orientation = OURS
 
 
@@ -181,23 +178,16 @@ def _whole(model: ReducedModel) -> RecoveryNodes:
 def _write_fields(
     mesh: BladeMesh, fields: Mapping[str, np.ndarray], notes: Mapping[str, float], name: str, target: Target
 ) -> None:
-    for suffix in target.formats:
-        with atomic_write(target.folder / f"{name}.{suffix}") as partial:
-            if suffix == "vtu":
-                grid = vtk_grid(mesh)
-                grid.point_data.update(dict(fields))
-                for about, value in notes.items():
-                    grid.field_data[about] = [value]
-                save_grid(grid, partial)
-            else:
-                content = meshio.Mesh(mesh.points, dict(mesh.blocks), point_data=dict(fields))
-                quietly(content.write, partial)
+    grid = vtk_grid(mesh)
+    grid.point_data.update(dict(fields))
+    for about, value in notes.items():
+        grid.field_data[about] = [value]
+    with atomic_write(target.folder / f"{name}.vtu") as partial:
+        save_grid(grid, partial)
 
 
 def _write_collection(files: Mapping[float, str], name: str, target: Target) -> None:
     """A ParaView list of the .vtu files over speed."""
-    if "vtu" not in target.formats:
-        return
     rows = "".join(f'    <DataSet timestep="{speed!r}" file="{file}.vtu"/>\n' for speed, file in files.items())
     text = f'<VTKFile type="Collection" version="0.1">\n  <Collection>\n{rows}  </Collection>\n</VTKFile>\n'
     write_text(text, target.folder / f"{name}.pvd")

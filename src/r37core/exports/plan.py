@@ -27,10 +27,9 @@ ChosenSpeeds: Any = word_or_speeds("worst", "all")
 class ExportSection(Section):
     """Files of `snakemake exports`."""
 
-    mesh_formats: Unique[Literal["msh", "vtu", "med", "bdf", "inp"]] = Field(
-        default=["msh", "vtu", "med", "bdf", "inp"], description="Mesh formats; inp is a complete CalculiX/Abaqus deck"
+    mesh_formats: Unique[Literal["msh", "vtu", "inp"]] = Field(
+        default=["msh", "vtu", "inp"], description="Mesh formats; inp is a complete CalculiX/Abaqus deck"
     )
-    result_formats: Unique[Literal["vtu", "med"]] = Field(default=["vtu"], description="Formats of modes and stress")
     modes: int = Field(default=10, ge=1, le=30, description="Number of modes at each speed")
     mode_speeds_rad_s: Annotated[Unique[ModeSpeed], Field()] | LeftOut = Field(
         default=None, description="Speeds of the modes; by default rest and structure.maximum_speed_rad_s"
@@ -79,7 +78,6 @@ class Exports:
         """The section of config.yaml, with the speeds (rad/s) of modes and matrices."""
         exported, highest = self._section, self.sweep.settings.structure.maximum_speed_rad_s
         return {
-            "formats": tuple(exported.result_formats),
             "modes": exported.modes,
             "mode_speeds": si_fields(exported).get("mode_speeds", (0.0, highest)),
             "matrix_speeds": (0.0, 0.5 * highest, highest),

@@ -23,7 +23,7 @@ from .matrices_out import write_full_matrices, write_reduced_matrices
 def mesh(input: Any, output: Any, params: Any) -> None:
     """Write a mesh for another program. Input: mesh (vtu). Params: blade, material, orientation.
 
-    Output: mesh, of a format that its suffix names: .msh, .vtu, .med, .bdf or .inp.
+    Output: mesh, of a format that its suffix names: .msh, .vtu or .inp.
     """
     blade_mesh = read_vtu(input.mesh)
     if Path(output.mesh).suffix == ".inp":
@@ -67,4 +67,4 @@ def matrices(input: Any, output: Any, params: Any) -> None:
 
 
 def _target(output: Any, params: Any) -> Target:
-    return Target(Path(output.folder), params.choice["formats"], from_plain(Orientation, params.orientation))
+    return Target(Path(output.folder), from_plain(Orientation, params.orientation))

@@ -34,7 +34,9 @@ def solid_blocks(cells: Iterable[tuple[str, np.ndarray]]) -> dict[str, np.ndarra
     parts: dict[str, list[np.ndarray]] = {}
     for name, nodes in cells:
         if len(nodes) and not name.startswith(_SURFACE):
-            parts.setdefault(name, []).append(np.asarray(nodes, dtype=np.int64))
+            block = np.asarray(nodes, dtype=np.int64)
+            damaged = name in ELEMENTS and block.shape[1] != len(ELEMENTS[name].nodes)
+            parts.setdefault(f"{name} with {block.shape[1]} nodes" if damaged else name, []).append(block)
     unknown = [name for name in parts if name not in ELEMENTS]
     if unknown:
         remedy = (
