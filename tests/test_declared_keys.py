@@ -12,10 +12,12 @@ import pytest
 from pydantic import Field
 
 from r37core.base.declared import Key, declared_keys
-from r37core.base.units import SUFFIXES
+from r37core.base.units import LIKE_A_UNIT, SI_UNITS, SUFFIXES, unit_of
 from r37core.config import ConfigError, Document, checked_scene, si_fields, si_form
 from r37core.config.declaring import DECLARED, declared_by
 from r37core.config.section import Section
+from r37core.designs.table import MEASURES
+from r37core.results.columns import OPERATING, RANKING, SUMMARY, Column
 
 
 @dataclass(frozen=True)
@@ -163,12 +165,6 @@ IN_SI |= {"_cm": (30.0, 0.3), "_percent": (30.0, 0.3), "_deg": (90, 0.5 * math.p
 IN_SI |= {"_rpm": (60.0, 2.0 * math.pi), "_rpm_s": (60.0, 2.0 * math.pi)}
 """Suffix -> a number in its unit, which may be a whole one as defaults are, and the same in that of the SI."""
 
-UNIT = re.compile(
-    r"_([kcmu]?m|in|ft|m?m[23]|k?g|t|m?s|min|k?hz|[kmg]?pa|k?n|j|w|rad|deg|rpm|rad_s2?|rpm_s|percent|kg_m3|n_m2)$",
-    re.IGNORECASE,
-)
-"""Ends of names that a reader takes for a unit."""
-
 
 def sections(of=Section):
     """All models of mappings of the configuration files."""
@@ -190,11 +186,28 @@ def test_a_number_with_a_unit_becomes_one_of_the_si(suffix):
 def test_every_unit_of_a_key_is_known_and_what_is_left_out_has_no_field():
     """A key that ends in a unit without a suffix of its own would reach its field under a wrong name."""
     keys = {key for section in SECTIONS.values() for key in section.model_fields}
-    with_units = {key for key in keys if UNIT.search(key)}
+    with_units = {key for key in keys if LIKE_A_UNIT.search(key)}
     assert {"clearance_m", "time_step_s", "density_kg_m3", "speeds_rpm", "cone_angle_deg"} <= with_units
     assert not {key for key in with_units if not key.endswith(tuple(SUFFIXES))}
-    assert {suffix for suffix in SUFFIXES if any(key.endswith(suffix) for key in keys)} == set(SUFFIXES)
     assert si_fields([("bar_area_m2", None), ("cone_angle_deg", "tip"), ("bars", 7)]) == {"bars": 7}
+
+
+@pytest.mark.parametrize("unit", ["_n", "_furlong"])
+def test_a_key_of_an_unknown_unit_is_refused_with_its_name(unit):
+    @dataclass
+    class Spring:
+        force: Annotated[float, Key("of the spring", unit)]
+
+    with pytest.raises(ValueError, match=rf"key force{unit}: found the unit '{unit}'; known: _m, _m2, .*_deg"):
+        declared_keys(Spring)
+
+
+@pytest.mark.parametrize("column", ["power_w", "force_n", "energy_j", "time_s"])
+def test_every_column_has_a_unit_that_is_known(column):
+    units = {unit_of(column.name) for column in (*SUMMARY, *RANKING, *MEASURES, *OPERATING)}
+    assert units == {*SI_UNITS.values(), "1"} - {"percent"}
+    with pytest.raises(ValueError, match=f"{column}: ends like a unit that no column has; known: _m, _pa"):
+        _ = Column(column, "").unit
 
 
 @pytest.mark.parametrize(("rad_s", "rpm", "speeds"), [([5.0], [], (5.0,)), ([], [30.0], (math.pi,)), ([], [], ())])

@@ -183,6 +183,9 @@ def test_an_edited_source_or_another_processor_is_made_again(cache, monkeypatch,
     (tmp_path / "law.py").write_text("2")
     cached_object("twice", Sources("law.py"), None, make)
     assert len(list(cache.glob("*.o"))) == 2
+    (tmp_path / "law.py").write_text('"""A law."""\n\n(2)  # twice\n')
+    cached_object("twice", Sources("law.py"), None, None)
+    assert len(list(cache.glob("*.o"))) == 2, "comments and docstrings compile nothing"
     monkeypatch.setenv("NUMBA_CPU_NAME", "x86-64-v3")
     cached_object("twice", Sources("law.py"), None, lambda: b"")
     assert len(list(cache.glob("*.o"))) == 3

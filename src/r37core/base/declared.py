@@ -63,13 +63,16 @@ class DeclaredKey:
 
 @cache
 def declared_keys(kind: type) -> tuple[DeclaredKey, ...]:
-    """All keys that the fields of a dataclass declare, in their order."""
+    """All keys that the fields of a dataclass declare, in their order. Raises ValueError for a key whose unit is not known."""
     hints = get_type_hints(kind, include_extras=True)
     declared = []
     for field in fields(kind):
         if get_origin(hints[field.name]) is Annotated:
             kind, *metadata = get_args(hints[field.name])
             parts = chain.from_iterable(part if isinstance(part, tuple) else (part,) for part in metadata)
-            keys = [part for part in parts if isinstance(part, Key)]
-            declared += [DeclaredKey((key.name or field.name) + key.unit, field.name, key, kind, field.default) for key in keys]
+            for key in (part for part in parts if isinstance(part, Key)):
+                name = (key.name or field.name) + key.unit
+                if key.unit not in ("", *SUFFIXES):
+                    raise ValueError(f"key {name}: found the unit '{key.unit}'; known: {', '.join(SUFFIXES)} (units.SUFFIXES)")
+                declared.append(DeclaredKey(name, field.name, key, kind, field.default))
     return tuple(declared)

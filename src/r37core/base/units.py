@@ -1,6 +1,7 @@
 """Units that people read and write beside those of the SI."""
 
 import math
+import re
 from functools import cache
 
 RPM = 30.0 / math.pi
@@ -26,6 +27,12 @@ STIFFNESS_UNITS = {"N/m": 1.0, "N/mm": 1e3}
 SI_UNITS = {"_m": "m", "_pa": "Pa", "_kg": "kg", "_hz": "Hz", "_rad_s": "rad s-1", "_percent": "percent"}
 """End of a table's column -> its unit as datasets have it."""
 
+LIKE_A_UNIT = re.compile(
+    r"_([kcmu]?m|in|ft|m?m[23]|k?g|t|m?s|min|k?hz|[kmg]?pa|k?n|j|k?w|rad|deg|rpm|rad_s2?|rpm_s|percent|kg_m3|n_m2?)$",
+    re.IGNORECASE,
+)
+"""Ends of names that a reader takes for a unit."""
+
 _SHOWN = {"m": ("mm", 1e3), "Pa": ("MPa", 1e-6), "rad s-1": ("rad/s", 1.0), "percent": ("%", 1.0), "1": ("", 1.0)}
 
 
@@ -45,5 +52,11 @@ def si_name(key: str) -> tuple[str, float | None]:
 
 
 def unit_of(column: str) -> str:
-    """Unit of a table's column, as datasets have it, by the end of its name; "1" for a plain number."""
-    return next((unit for end, unit in SI_UNITS.items() if column.endswith(end)), "1")
+    """Unit of a table's column, as datasets have it, by the end of its name; "1" for a plain number.
+
+    Raises ValueError for a name that ends like a unit which is none of SI_UNITS.
+    """
+    unit = next((unit for end, unit in SI_UNITS.items() if column.endswith(end)), "1")
+    if unit == "1" and LIKE_A_UNIT.search(column):
+        raise ValueError(f"{column}: ends like a unit that no column has; known: {', '.join(SI_UNITS)} (units.SI_UNITS)")
+    return unit

@@ -10,7 +10,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
-from functools import cache
+from functools import cache, cached_property
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -42,15 +42,34 @@ def this_processor() -> tuple[str, str]:
 
 
 class Sources:
-    """Files of the package that object code is made from; `digest`: of them as they were when they were imported."""
+    """Files of the package that object code is made from, as they were when they were imported."""
 
     def __init__(self, *files: str):
         self.files = files
-        self.digest = self.digest_now()
+        self._contents = self._contents_now()
 
-    def digest_now(self) -> bytes:
-        """The digest of the files as they are."""
-        return hashlib.sha256(b"".join((_PACKAGE / file).read_bytes() for file in self.files)).digest()
+    @cached_property
+    def digest(self) -> bytes:
+        """Hash of what the files did, of which comments and docstrings are no part; kept, as jobs have no time to parse."""
+
+        def parsed() -> bytes:
+            # slow, and no job with a known text asks
+            import ast
+
+            from .code_hash import code_hash
+
+            return b"".join(code_hash(ast.parse(content)) for content in self._contents)
+
+        texts = [hashlib.sha256(content).digest() for content in self._contents]
+        return kept_bytes("sources.digest", texts, parsed, lambda: True)
+
+    @property
+    def unchanged(self) -> bool:
+        """True as long as nobody has edited the files."""
+        return self._contents == self._contents_now()
+
+    def _contents_now(self) -> list[bytes]:
+        return [(_PACKAGE / file).read_bytes() for file in self.files]
 
 
 def cached_object(name: str, sources: Sources, about: object, build: Callable[[], bytes]) -> bytes:
@@ -67,7 +86,7 @@ def cached_object(name: str, sources: Sources, about: object, build: Callable[[]
         _check_environment()
         return build()
 
-    return kept_bytes(f"{name}.o", made_of, told, lambda: sources.digest_now() == sources.digest)
+    return kept_bytes(f"{name}.o", made_of, told, lambda: sources.unchanged)
 
 
 def object_code(assembly: str, symbol: str, name: str) -> bytes:

@@ -3,11 +3,12 @@
 import ast
 import hashlib
 import json
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from functools import cache
 from itertools import takewhile
 from pathlib import Path
 
+from r37core.machine_code import code_hash
 from r37core.machine_code.kept import keep, read_kept
 
 PACKAGE = "r37core"
@@ -103,7 +104,7 @@ class _FactsOfFiles:
         content = read_kept(self._NAME)
         self._known: dict[str, tuple[str, list[str]]] = json.loads(content) if content else {}
         self._new = False
-        self._own = Path(__file__).read_bytes()
+        self._own = b"".join(Path(file).read_bytes() for file in (__file__, code_hash.__file__))
         self.of = cache(self._read)
 
     def _read(self, file: Path, function: str) -> tuple[bytes, list[str]]:
@@ -113,8 +114,7 @@ class _FactsOfFiles:
             tree = ast.parse(content)
             if function:
                 tree = _used_by(function, tree)
-            text = "".join(f"{part}\0" for part in _parts(tree))
-            self._known[key] = (hashlib.sha256(text.encode()).hexdigest(), _imported_names(tree, package))
+            self._known[key] = (code_hash.code_hash(tree).hex(), _imported_names(tree, package))
             self._new = True
         fingerprint, names = self._known[key]
         return bytes.fromhex(fingerprint), names
@@ -169,25 +169,3 @@ def _imported_names(tree: ast.Module, package: list[str]) -> list[str]:
 def _package_of(file: Path) -> list[str]:
     """Names of the packages that a file lies in, from the outermost."""
     return [folder.name for folder in takewhile(lambda folder: (folder / "__init__.py").exists(), file.parents)][::-1]
-
-
-def _parts(node: ast.AST) -> Iterator[str]:
-    yield type(node).__name__
-    for name, value in ast.iter_fields(node):
-        if name in ("ctx", "kind", "type_comment") or value is None or value == []:
-            continue
-        yield name
-        values = value if isinstance(value, list) else [value]
-        if name == "body" and isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            values = [part for part in values if not _is_text(part)]
-        for part in values:
-            if isinstance(part, ast.AST):
-                yield from _parts(part)
-            else:
-                yield repr(part)
-        yield "."
-
-
-def _is_text(node: ast.AST) -> bool:
-    """True if a statement is a text alone: a docstring, or one after an assignment."""
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)

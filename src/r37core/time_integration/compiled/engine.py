@@ -20,7 +20,7 @@ from .layout import NORMAL, TANGENTIAL, Capacity, Kind
 
 _COMPILED = ("contact_steps", "edge_steps", "jump_steps", "layout", "quadratic_steps", "segment_steps", "program", "steps")
 SOURCES = Sources(
-    *(f"machine_code/{name}.py" for name in ("alignment", "kept", "lanes", "native", "program_constants")),
+    *(f"machine_code/{name}.py" for name in ("alignment", "code_hash", "kept", "lanes", "native", "program_constants")),
     "base/declared.py",
     "base/units.py",
     *(f"contact/{name}.py" for name in ("casing", "complementarity", "laws", "node_sweeps", "ring", "scene")),
@@ -28,7 +28,7 @@ SOURCES = Sources(
     "rom/quadratic_terms.py",
     *(f"time_integration/{name}.py" for name in ("jump_numbers", "state")),
 )
-"""Files that the compiled time integration is made from: a change in one of them compiles it again."""
+"""Files that the compiled time integration is made from: a change of what one of them does compiles it again."""
 
 
 class CompiledEngine(LaidOutProblem):
