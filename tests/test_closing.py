@@ -298,10 +298,10 @@ def test_search(tmp_path):
     found.to_netcdf(tmp_path / "search.nc")
     said = search.closing(tmp_path).replace(str(tmp_path), "results")
     best = "the best, d0001: lined 13.2 rad/s (the start 70.6), mass 2.1 kg (the start 2)"
-    assert said == f"2 designs, 1 of them keep all constraints; {best}; entries in results/search/best"
+    assert said == f"2 designs, 1 of them keep all constraints; {best}; its values are in results/search.csv"
     found.assign(feasible=("design", [1, 1, 1]), objective_scatter=20.0 * found["objective_scatter"] + 99.0).to_netcdf(
         tmp_path / "search.nc"
     )
-    assert "; 1 other cannot be told apart from it; entries" in search.closing(tmp_path)
+    assert "; 1 other cannot be told apart from it; its values" in search.closing(tmp_path)
     found.assign(order=("design", [0, 0, 0])).to_netcdf(tmp_path / "search.nc")
     assert search.closing(tmp_path) == "2 designs, 1 of them keep all constraints"

@@ -45,9 +45,6 @@ def test_config_refusals(config_copy, changes, message):
     [*((name, "patches") for name in ("decide", "ranking", "search", "search_best", "tolerances")), ("rotor", "points")],
 )
 def test_decisions_have_large_displacements(config_copy, name, contact):
-    (best := config_copy / "results/runs/search/search/best").mkdir(parents=True)
-    search = (config_copy / "config/search_blades.yaml").read_text()
-    (best / "blades.yaml").write_text(f"{search}\nFree_best1: {{ base: Free, stagger_deg: 1 }}\n")
     settings = read_settings(config_copy, read_document(config_copy, f"config/{name}.yaml"))
     assert {settings.reduction_choice(blade).kinematics for blade in settings.blades} == {"quadratic"}
     assert {settings.boundary_choice(blade).contact for blade in settings.blades} == {contact}

@@ -409,11 +409,11 @@ def test_figures_of_extensions_are_linked_where_they_belong(page, datasets, inte
     contents = explorer_contents(datasets, interactions) | {"figures": linked_figures(Sweep(settings))}
     with beside(page, contents, tmp_path / "explorer.html", place="#blade=Ref&scene=abradable&speed=900") as other:
         links = other.locator("#figures a")
-        files = [f"figures/{name}.png" for name in ("rotor_Ref__abradable", "search_designs", "search_slices")]
+        files = [f"figures/{name}.png" for name in ("rotor_Ref__abradable", "search_designs")]
         assert [link.get_attribute("href") for link in links.all()] == files
-        assert links.all_text_contents() == ["rotors: rotor", "search: designs", "search: slices"]
+        assert links.all_text_contents() == ["rotors: rotor", "search: designs"]
         choose(other, scene="direct")
-        assert links.all_text_contents() == ["search: designs", "search: slices"]
+        assert links.all_text_contents() == ["search: designs"]
 
 
 def test_a_diverged_run_is_marked(page, datasets, interactions, tmp_path):

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from r37core.base.plain import from_plain, to_plain
-from r37core.search.dataset import objective_fits, sensitivity, slices
 from r37core.surrogate.designs import Design, SearchVariable, best_first, designs_at, not_dominated, shares
 from r37core.surrogate.proposal import NEAR, first_designs, propose
 
@@ -209,34 +208,3 @@ def test_the_front_and_the_order():
     singles = [("a", 1.0, 1.0), ("b", 0.0, 1.0), ("c", 0.0, 2.0), ("d", 0.0, 1.0), ("e", 0.0, -1.0)]
     order = best_first([design(name, (value,), (margin,)) for name, value, margin in reversed(singles)])
     assert [each.name for each in order] == ["c", "b", "d", "a"]
-
-
-def test_slices_and_indices_of_a_known_function():
-    """a + b over a square has indices 1/5 and 4/5 where b varies twice as much; a constant objective has none."""
-    evaluated = with_objectives(first_designs(SQUARE, 24, 0), lambda values: (values[0] + values[1], 0.0))
-    first, total, predicted = sensitivity(SQUARE, evaluated, 0)
-    assert first[0] == pytest.approx([0.2, 0.8], abs=0.02) == total[0]
-    assert predicted[0] > 0.99
-    assert np.isnan([*first[1], *total[1], predicted[1]]).all()
-    few = with_objectives(DESIGNS, lambda values: (bowl(values),))
-    process = objective_fits(SQUARE, few, 0)[0]
-    assert abs(process.without(0) - process.numbers[0]) > 10 * abs(process.at(process.points[:1])[0][0] - process.numbers[0])
-    values, mean, deviation = slices(SQUARE, evaluated, (1.0, 6.0), 5, 0)
-    assert values[1].tolist() == [0.0, 2.0, 4.0, 6.0, 8.0]
-    assert mean[0, 0] == pytest.approx(values[0] + 6.0, abs=0.1)
-    assert mean[0, 1] == pytest.approx(values[1] + 1.0, abs=0.1)
-    assert (deviation[0] > 0).all() and (deviation[1] == 0).all()
-    assert np.isnan(slices(SQUARE, evaluated[:1], (1.0, 6.0), 5, 0)[1]).all()
-
-
-def test_a_surrogate_of_noise_alone_says_so():
-    evaluated = noisy(lambda values: 0.0, first_designs(SQUARE, 24, 0))
-    assert sensitivity(SQUARE, evaluated, 0)[2][0] < 0.3
-
-
-def test_all_of_the_variance_is_of_a_single_variable():
-    single = (SearchVariable("a", -2.0, 2.0),)
-    evaluated = with_objectives([(-1.0,), (0.0,), (0.7,), (1.2,)], lambda values: (values[0] ** 2,))
-    first, total, _ = sensitivity(single, evaluated, 0)
-    assert first.tolist() == total.tolist() == [[1.0]]
-    assert np.isfinite(slices(single, evaluated, (0.7,), 5, 0)[1]).all()

@@ -2,7 +2,6 @@
 
 import math
 import pickle
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +14,7 @@ from workflow_runs import overlay
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import Named
-from r37core.base.varied_number import BLADE
 from r37core.config import ConfigError
-from r37core.config.changed_numbers import scene_numbers
 from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
 from r37core.rom.rotation import BucklingError
@@ -68,9 +65,7 @@ def simulated(tmp_path, monkeypatch):
             return {member: done.lengths.get((scene, member), float(design.strip("dstar") or 0)) for member in sweeps}
 
     def file(self, *_):
-        if self.name != "geometry.nc":
-            return tmp_path / self.name
-        return shutil.copy(tmp_path / self.name, tmp_path / f"{Path(self.params['definition']['name']).name}.nc")
+        return tmp_path / self.name
 
     def robustness(length, chance_scatter=True, operating=None):
         scatter = {"exceedance_integral_scatter_rad_s": 0.5} if chance_scatter else {}
@@ -87,8 +82,6 @@ def simulated(tmp_path, monkeypatch):
     monkeypatch.setattr(evaluation, "robustness", robustness)
     monkeypatch.setattr(evaluation, "read_contact_model", lambda file: Named(rotation_stiffening=np.zeros(1)))
     monkeypatch.setattr(evaluation, "read_stress_operators", lambda file: {"one": StressOperator(operator, 1, "")})
-    monkeypatch.setattr(steps, "read_geometry", lambda file: file.stem)
-    monkeypatch.setattr(steps, "write_step", lambda shape, file: file.write_text(shape))
     return done
 
 
@@ -101,9 +94,7 @@ def search(folder, name="search"):
     settings, files = read_settings(folder), folder / name
     plan = Search(settings)
     params = {"carried": plan.carried(None), "budget": plan.budget(None), "fidelity": "draft", "cores": 1}
-    # as Snakemake does before each job
-    shutil.rmtree(files / "best", ignore_errors=True)
-    output = Named(dataset=files / "search.nc", table=files / "search.csv", best=files / "best")
+    output = Named(dataset=files / "search.nc", table=files / "search.csv")
     steps.search(Named(), output, Named(**params))
     return read_dataset(output.dataset), pd.read_csv(output.table, index_col="design")
 
@@ -157,18 +148,13 @@ def test_designs_are_measured_again_by_other_code_of_their_structure(folder, sim
     assert simulated == ["start/abradable", "start/abradable"]
 
 
-def test_a_search_gives_all_designs_and_writes_the_best(folder, simulated):
+def test_a_search_gives_all_designs(folder, simulated):
     dataset, rows = search(folder)
     names = [f"d000{number}" for number in range(5)]
     assert list(rows.index) == ["start", *names] and rows.loc["d0001", "refused"] == "crossed"
     assert simulated == [f"{name}/abradable" for name in ["start", *names] if name != "d0001"]
     assert dataset.attrs["fidelity"] == "draft" and len(dataset.attrs["input_hash"]) > 8
-    best = folder / "search/best"
-    assert {file.name for file in best.iterdir()} == {"blades.yaml", "Free_best1.step", "Free_best2.step"}
-    assert [(best / f"Free_best{place}.step").read_text() for place in (1, 2)] == ["d0000", "d0002"]
-    text = (best / "blades.yaml").read_text()
-    assert "blades='[Free, Free_best1, Free_best2]'" in text and "# d0002: lined 2 rad s-1; the start: lined 0 rad s-1" in text
-    assert list(yaml.safe_load(text)) == ["Ref", "Free", "Free_best1", "Free_best2"]
+    assert rows["order"].tolist() == [0, 1, 0, 2, 3, 4]
 
 
 def test_a_broken_search_goes_on_with_the_same_designs(folder, simulated):
@@ -286,7 +272,7 @@ def test_a_variable_of_scenes_changes_every_scene_that_has_it_and_no_model(confi
     """The shape of such a design is not meshed, and cannot be refused but by its scene."""
     settings = searched_settings(config_copy, SCENES_ALONE)
     designs = designs_of(settings)
-    assert designs.start_values == [0.005, 0.15] and designs.varied(BLADE) == {"Free": []}
+    assert designs.start_values == [0.005, 0.15] and not designs.change_blade
     nominal = recipes(settings, "Free", {"contact_model": None})["contact_model"]
     for name, values, thickness, friction in (("start", None, 0.005, 0.15), ("d0001", (0.002, 0.1), 0.002, 0.1)):
         lined, bare = (of[NOMINAL].scenes[scene].scene for scene, of in designs.members(name, values).items())
@@ -317,17 +303,3 @@ def test_tolerances_spread_about_the_value_of_the_design(config_copy):
     coefficients = [scene.friction.coefficient for name, scene in scenes.items() if name != NOMINAL]
     assert len(set(coefficients)) == 4 and all(0.095 <= each <= 0.105 for each in coefficients)
     assert {scene.lining.thickness for scene in scenes.values()} == {0.002}
-
-
-def test_the_best_scenes_are_a_scenes_file(config_copy, simulated):
-    """The bare scene has no lining, and one variable is of the blade."""
-    settings = searched_settings(config_copy, "scene.lining.thickness_m: [0.001, 0.004], stagger_deg.tip: [-3, 3]")
-    dataset, _ = search(config_copy)
-    file, names = config_copy / "config/config.yaml", ["abradable", "direct", "abradable_best1", "abradable_best2"]
-    content = {key: value for key, value in yaml.safe_load(file.read_text()).items() if key != "search"}
-    file.write_text(yaml.safe_dump(content | {"scenes_file": "search/best/scenes.yaml", "scenes": names}))
-    entries, before = read_settings(config_copy).scene_designs.entries, settings.scene_designs.entries
-    assert list(entries) == names and all(entries[name] == before[name] for name in names[:2])
-    for name, design in (("abradable_best1", "d0000"), ("abradable_best2", "d0002")):
-        thickness = float(dataset["value"].sel(design=design, variable="scene.lining.thickness_m"))
-        assert scene_numbers(entries[name]) == {**scene_numbers(entries["abradable"]), "lining.thickness_m": thickness}

@@ -61,7 +61,6 @@ TESTS = {
     "surrogate/gaussian_processes.py": "test_search_proposals.py",
     "surrogate/designs.py": "test_search_proposals.py",
     "surrogate/proposal.py": "test_search_proposals.py",
-    "search/dataset.py": "test_search.py test_search_proposals.py",
     "run_ups/revolutions.py": "test_run_ups.py",
     "stress/": "test_results.py",
 }

@@ -15,7 +15,7 @@ from r37core.config.scenes import OF_ONE_BLADE
 from r37core.plans.paths import fill
 from r37core.rotors.plan import ROTOR_OF_RUN
 from r37core.search.designs import FOLDER
-from r37core.search.plan import BEST, DATASET, TABLE
+from r37core.search.plan import DATASET, TABLE
 from r37core.search.section import SearchSection
 from r37core.tolerances.members import ToleranceSection
 
@@ -56,7 +56,6 @@ class SearchOptions(SweepOptions, total=False):
     method: str
     seed: int
     tolerances: Mapping[str, Any] | None
-    best: int
 
 
 @checked_call
@@ -202,8 +201,7 @@ def search(
 
     Returns:
         The dataset and the table search: every design and the start. Its method `best_values` has the values of the best
-        design, for `r37.blade`, and `best_scene_values` those for `r37.scene`; entries of the best are in
-        `folder / "search/best"`, with STEP files of blades.
+        design, for `r37.blade`, and `best_scene_values` those for `r37.scene`.
 
     Raises:
         ConfigError: For bad input, and where the extra package of a search is not installed. A design that cannot be built
@@ -224,7 +222,7 @@ def search(
     (chosen,) = call.blades
     section = {"blade": chosen.name, "variables": plain_value(variables), "objectives": plain_value(objectives)}
     section |= keys_of_its_own(options, SweepOptions)
-    return run_of(replace(call, keys={FOLDER: section, **call.keys}), options, (DATASET, TABLE, BEST))
+    return run_of(replace(call, keys={FOLDER: section, **call.keys}), options, (DATASET, TABLE))
 
 
 @checked_call

@@ -1,6 +1,6 @@
 # A search for better designs, in rounds: each proposes some by what all before them gave, until the budget is spent.
 from r37core.search import plan as search_plan
-from r37core.search.plan import BEST, DATASET, TABLE, Search
+from r37core.search.plan import DATASET, TABLE, Search
 
 search = Search(settings)
 
@@ -10,7 +10,6 @@ use rule step as search_designs with:
     output:
         dataset=DATASET,
         table=shown(TABLE, PACKAGE / "search/report.rst", "Search", "designs of the search"),
-        best=directory(BEST),
     log:
         "<logs>/search.log",
     priority: 3

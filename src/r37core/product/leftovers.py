@@ -43,7 +43,8 @@ def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
         files = results.glob(re.sub(r"\{\w+\}", "*", plain))
         others = RESERVED if plain.startswith("{blade}") else ()
         yield from (file for file in files if file not in planned and file.relative_to(results).parts[0] not in others)
-    folders = {folder for file in planned for folder in file.parents}
+    # a job that makes a dataset alone keeps what it goes on from in a folder of the same name
+    folders = {folder for file in planned for folder in (file.with_suffix(""), *file.parents)}
     for pattern in {parent for file in patterns for parent in _own_folders(file)}:
         present = (folder for folder in results.glob(re.sub(r"\{\w+\}", "*", pattern)) if folder.is_dir())
         # models of members and designs are hidden next to them

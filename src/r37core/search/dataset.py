@@ -1,44 +1,32 @@
-"""search.nc, search.csv and blades.yaml of the best designs: what a search writes, with predictions between its designs."""
+"""search.nc and search.csv: what a search writes, and its last line."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
-import scipy
 import xarray as xr
 
 from r37core.base.dataset_file import about, read_dataset
-from r37core.base.io import write_text
 from r37core.base.rounding import rounded_to
 from r37core.base.units import shown_unit
-from r37core.base.varied_number import VariedNumber, with_value
-from r37core.base.yaml_file import yaml_text
 from r37core.results.closing import counted
-from r37core.surrogate.designs import FEWEST_DONE, Design, SearchVariable, best_first, not_dominated, shares
-from r37core.surrogate.gaussian_processes import Fit, fit
+from r37core.surrogate.designs import Design, best_first, not_dominated
 
-from .plan import BEST, DATASET
+from .plan import DATASET, TABLE
 from .problem import START, UNKNOWN, SearchChoice
-
-POINTS = 41
-"""Number of points of a slice."""
-
-_SAMPLE = 1024
 
 
 def search_dataset(tried: Mapping[str, Design], choice: SearchChoice) -> xr.Dataset:
     """All designs of a search that were `tried`, the start first."""
     designs = list(tried.values())
-    known = [design for design in designs if not np.isnan(design.values).any()]
     order, front = _best(designs[1:], tried[START]), {design.name for design in not_dominated(designs)}
     dataset = xr.Dataset(coords=_coordinates(list(tried), choice))
     dataset = dataset.assign(_design_variables(designs, choice)).assign(_bound_variables(choice, tried[START]))
     dataset["not_dominated"] = ("design", np.array([name in front for name in tried], "i1"), _NOT_DOMINATED)
     places = [order.index(name) + 1 if name in order else 0 for name in tried]
     dataset["order"] = ("design", np.array(places, "i4"), _ORDER)
-    return dataset.assign(_surrogate_variables(known, choice, tried[order[0]].values)) if order else dataset
+    return dataset
 
 
 def _best(tried: Sequence[Design], start: Design) -> list[str]:
@@ -104,84 +92,6 @@ def _bound_variables(choice: SearchChoice, start: Design) -> dict[str, object]:
     }
 
 
-def _surrogate_variables(known: list[Design], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
-    """Slices through the best design, and what each variable does."""
-    values, mean, deviation = slices(choice.variables, known, at, POINTS, choice.seed)
-    first, total, predicted = sensitivity(choice.variables, known, choice.seed)
-    axes = ("objective", "variable")
-    return {
-        "slice_value": (("variable", "point"), values, about("1", "values of the variable, through the best design")),
-        "slice_mean": ((*axes, "point"), mean, about("1", "mean of the surrogate of the objective")),
-        "slice_deviation": ((*axes, "point"), deviation, about("1", "standard deviation of the surrogate")),
-        "sensitivity_first": (axes, first, about("1", "share of the surrogate's variance by the variable alone")),
-        "sensitivity_total": (axes, total, about("1", "share in which the variable has a part")),
-        "surrogate_q2": ("objective", predicted, about("1", "share of the variance that it predicts, each left out")),
-    }
-
-
-def slices(
-    variables: Sequence[SearchVariable], evaluated: Sequence[Design], at: Sequence[float], points: int, seed: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Surrogate of each objective at `points` values of each variable, the others as in the design `at`.
-
-    These values [variable, point], its mean and its standard deviation [objective, variable, point], in units of the
-    objectives; NaN where too few designs could be built.
-    """
-    along = np.linspace(0.0, 1.0, points)
-    places = np.tile(shares(variables, [at])[0], (len(variables), points, 1))
-    for number in range(len(variables)):
-        places[number, :, number] = along
-    bands = np.full((2, len(evaluated[0].objectives), len(variables), points), np.nan)
-    for number, process in enumerate(objective_fits(variables, evaluated, seed)):
-        bands[:, number] = np.reshape(process.at(places.reshape(-1, len(variables))), (2, len(variables), points))
-    values = [variable.lowest + along * (variable.highest - variable.lowest) for variable in variables]
-    return np.array(values), *bands
-
-
-def sensitivity(
-    variables: Sequence[SearchVariable], evaluated: Sequence[Design], seed: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """First-order and total Sobol' indices [objective, variable] of the surrogates, the variables uniform over their ranges.
-
-    The third [objective] is the share of the variance that a surrogate predicts at designs it was not told of, 1 at best, 0
-    or less where the indices mean nothing: designs are left out one at a time with the hyperparameters of all. NaN where all
-    designs have the same objective, or too few could be built.
-    Source: Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, in scipy.stats.sobol_indices; Q2 as in Marrel et al.
-    (2009), Reliab. Eng. Syst. Saf. 94, 742-751.
-    """
-    objectives = len(evaluated[0].objectives)
-    first, total = np.full((2, objectives, len(variables)), np.nan)
-    predicted = np.full(objectives, np.nan)
-    for number, process in enumerate(objective_fits(variables, evaluated, seed)):
-        if process.process is None:
-            continue
-        first[number], total[number] = _indices(process, len(variables), seed)
-        misses = process.numbers - [process.without(index) for index in range(len(process.numbers))]
-        predicted[number] = 1.0 - np.mean(misses**2) / np.var(process.numbers)
-    return first, total, predicted
-
-
-def objective_fits(variables: Sequence[SearchVariable], evaluated: Sequence[Design], seed: int) -> list[Fit]:
-    """The process of each objective over shares of the ranges; none where fewer than `FEWEST_DONE` designs could be built."""
-    known = sorted((design for design in evaluated if design.is_done), key=lambda design: (design.values, design.name))
-    if len(known) < FEWEST_DONE:
-        return []
-    points = shares(variables, [design.values for design in known])
-    objectives = np.array([design.objectives for design in known]).T
-    scatters = np.array([design.scatters for design in known]).T
-    return [fit(points, *each, seed) for each in zip(objectives, scatters, strict=True)]
-
-
-def _indices(process: Fit, variables: int, seed: int) -> np.ndarray:
-    """First-order and total index of each variable [2, variable]."""
-    if variables == 1:
-        # all of the variance is of the one variable, for which scipy has no indices
-        return np.ones((2, 1))
-    dists = [scipy.stats.uniform()] * variables
-    sobol = scipy.stats.sobol_indices(func=lambda points: process.at(points.T)[0], n=_SAMPLE, dists=dists, rng=seed)
-    return np.array([sobol.first_order, sobol.total_order])
-
-
 def search_table(search: xr.Dataset) -> pd.DataFrame:
     """A row for each design: values, objectives with their scatter, constraints, round, and why it was refused."""
     table = pd.DataFrame({"design": search["design"].values, "round": search["round"].values})
@@ -195,57 +105,6 @@ def search_table(search: xr.Dataset) -> pd.DataFrame:
     for name in ("feasible", "not_dominated", "order", "refused"):
         table[name] = search[name].values
     return table
-
-
-BLADES_HEADER = """\
-# The best designs of a search: entries to paste into your blades.yaml, or a file of its own with the blades they start from. To
-# run them at another level, with tolerances or in other scenes:
-#   snakemake all_blades --configfile config/config.yaml --config blades_file={file} blades='[{names}]' \\
-#     fidelity=standard run='{{name: best}}'
-"""
-
-SCENES_HEADER = """\
-# The scenes of a search and of its best designs, as a file of their own. To run these, with the blade of the search or, where
-# that varies, those of blades.yaml next to this file:
-#   snakemake all_blades --configfile config/config.yaml --config blades_file=FILE blades='[BLADE]' \\
-#     scenes_file={file} scenes='[{names}]' fidelity=standard run='{{name: best}}'
-"""
-
-
-def write_entries(
-    search: xr.Dataset,
-    designs: Sequence[str],
-    entries: Mapping[str, Any],
-    varied: Mapping[str, Sequence[str]],
-    header: str,
-    file: Path | str,
-) -> list[str]:
-    """Write the `designs`, the best first, as YAML (name_best1, name_best2, ...) after the entries that they start at.
-
-    `entries`: of the blade with its bases, or of the scenes; `varied`: name of an entry that is searched -> variables of the
-    search that it has. One without is the start's. Names of the new entries.
-    """
-    parts = [yaml_text(dict(entries))]
-    names: list[str] = []
-    for place, design in enumerate(designs, 1):
-        values = dict(zip(search["variable"].values.tolist(), search["value"].sel(design=design).values.tolist(), strict=True))
-        made = {}
-        for name, keys in varied.items():
-            content = dict(entries[name])
-            for key in keys:
-                content = with_value(content, VariedNumber.named(key).key, values[key])
-            if keys:
-                made[f"{name}_best{place}"] = content
-        names += made
-        parts.append(f"# {design}: {_objectives(search, design)}; the start: {_objectives(search, START)}\n{yaml_text(made)}")
-    write_text("\n".join([header.format(file=file, names=", ".join([*varied, *names])), *parts]), file)
-    return names
-
-
-def _objectives(search: xr.Dataset, design: str) -> str:
-    of = search.sel(design=design)
-    values = zip(of["objective"].values, of["objective_value"].values, of["objective_unit"].values, strict=True)
-    return ", ".join(f"{name} {float(value):.4g} {unit}" for name, value, unit in values)
 
 
 def closing(results: Path) -> str:
@@ -263,7 +122,7 @@ def closing(results: Path) -> str:
     tied = (off <= scatters + scatters.sel(design=name, drop=True)).all("objective") & (designs["feasible"] > 0)
     if (others := int(tied.sum()) - 1) > 0:
         numbers += f"; {counted(others, 'other')} cannot be told apart from it"
-    return f"{text}; the best, {name}: {numbers}; entries in {results / BEST.removeprefix('<results>/')}"
+    return f"{text}; the best, {name}: {numbers}; its values are in {results / TABLE.removeprefix('<results>/')}"
 
 
 def _against(best: xr.Dataset, start: xr.Dataset, objective: str) -> str:

@@ -1,15 +1,11 @@
 """Designs of a search: the blade that it starts at and its scenes, with other values of some keys."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
-
-from pydantic import BaseModel
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, values_of
 from r37core.blade.definition import Shape
-from r37core.blade.profile_tables import stacking_table_rows
 from r37core.config import BladeSettings, Settings, operating_range, plain, varied_settings
 from r37core.config.blades import BladeEntry, blade_settings
 from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
@@ -74,6 +70,11 @@ class SearchDesigns:
         """Numbers of the variables."""
         return list(map(VariedNumber.named, self.entry.variables))
 
+    @property
+    def change_blade(self) -> bool:
+        """True if a variable is of the blade, so that designs have models of their own."""
+        return any(number.kind == BLADE for number in self.numbers)
+
     def values_in_scenes(self, number: VariedNumber) -> dict[str, float]:
         """Scene -> its value of a number of scenes, of all scenes of the search that have it."""
         known = self.scene_numbers.items() if number.kind == SCENE else ()
@@ -83,26 +84,6 @@ class SearchDesigns:
     def scene_numbers(self) -> dict[str, dict[str, float]]:
         """Numbers of each scene of the search by dotted keys."""
         return {scene: scene_numbers(self.settings.scene_designs.entries[scene]) for scene in self.scenes}
-
-    def varied(self, kind: str) -> dict[str, list[str]]:
-        """Entry -> variables of the search that it has: of the start (BLADE), or of each scene of the search (SCENE)."""
-        if kind == BLADE:
-            return {self.entry.blade: [number.name for number in self.numbers if number.kind == BLADE]}
-        return {
-            scene: [number.name for number in self.numbers if scene in self.values_in_scenes(number)] for scene in self.scenes
-        }
-
-    def entries(self, kind: str) -> dict[str, Any]:
-        """Entries that the designs start at, as plain values: of blades the bases first, the start with its table last."""
-        if kind == SCENE:
-            return _written(self.settings.scene_designs.entries, self.scenes)
-        entries, chain = self.settings.designs.entries, [self.entry.blade]
-        while (base := getattr(entries[chain[0]], "base", None)) is not None:
-            chain.insert(0, base)
-        written = _written(entries, chain)
-        if (table := written[chain[-1]].pop("stacking_table", None)) is not None:
-            written[chain[-1]]["sweep_lean"] = stacking_table_rows(self.settings.root / table, chain[-1])
-        return written
 
     def varied_entry(self, name: str, values: Mapping[str, float]) -> BladeEntry | SectionsEntry:
         """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
@@ -115,7 +96,7 @@ class SearchDesigns:
     def blade(self, name: str, values: Sequence[float] | None) -> BladeSettings:
         """A design as a blade, the start without `values`. Raises ConfigError where its shape is impossible."""
         blade, designs = self.entry.blade, self.settings.designs
-        if values is None or not any(self.varied(BLADE).values()):
+        if values is None or not self.change_blade:
             return self.settings.blades[blade]
         changed = self.varied_entry(name, dict(zip(self.entry.variables, values, strict=True)))
         # the name is that of the start, by which tables of sweep and lean know it
@@ -162,11 +143,6 @@ class SearchDesigns:
         return {
             member: changed_pair(blade, scene_entry, {**design, **drawn(spreads, nominal, points[member])}) for member in points
         }
-
-
-def _written(entries: Mapping[str, BaseModel], names: Iterable[str]) -> dict[str, Any]:
-    """Entries as their file has them."""
-    return {name: entries[name].model_dump(exclude_none=True, exclude_unset=True) for name in names}
 
 
 def start_value(entry: ShapeKeys, key: str) -> float | None:

@@ -12,7 +12,6 @@ import numpy as np
 from r37core.base.dataset_file import read_dataset
 from r37core.base.io import Named, read_json, write_json
 from r37core.base.plain import to_plain
-from r37core.base.varied_number import BLADE
 from r37core.blade.definition import shape_from_plain
 from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.changed_numbers import ImpossibleValueError
@@ -87,10 +86,6 @@ class Evaluation:
         calls = [partial(self._quantities, name, values, one_by_one) for name, values in designs.items()]
         return list(self.run_all(calls, "designs"))
 
-    def geometry(self, name: str, values: Sequence[float] | None) -> Path:
-        """File with the shape of a design."""
-        return self.runs(name, values).structure["geometry"].file(self._structures, self._attributes)
-
     def _quantities(self, name: str, values: Sequence[float] | None, run_all: RunAll) -> dict[str, Any] | str:
         try:
             runs = self.runs(name, values)
@@ -127,7 +122,7 @@ class Evaluation:
 
     def _measure(self, name: str, runs: DesignRuns, run_all: RunAll, file: Path) -> None:
         """Build the design, run it, and write its quantities. Raises Refused where it cannot be built."""
-        if name != START and any(self.designs.varied(BLADE).values()):
+        if name != START and self.designs.change_blade:
             self._check_shape(name, runs)
         made = {stage: part.file(self._structures, self._attributes) for stage, part in runs.structure.items()}
         operating, quantities = operating_range(self.settings), choice_of(self.settings).quantities

@@ -1,4 +1,4 @@
-"""A search: how good its designs became, the objectives against each other, and what each variable does."""
+"""A search: how good its designs became, and the objectives against each other."""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -22,12 +22,6 @@ _FRONT_LOOK: dict[str, Any] = {"color": style.COLOURS[1], "marker": "o", "marker
 
 _MOST_NAMED = 8
 """Designs that none is better than, with their names beside them."""
-
-_MOST_COLUMNS = 5
-"""Panels of slices beside each other."""
-
-_LONGEST_KEY = 14
-"""Characters of a key in one line."""
 
 
 class _Objective(NamedTuple):
@@ -61,39 +55,6 @@ def draw_designs(search: xr.Dataset) -> Figure:
         axes.set_axis_off()
     figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=3)
     figure.suptitle(_title(search))
-    return figure
-
-
-def draw_slices(search: xr.Dataset) -> Figure:
-    """Surrogate of each objective along each variable through the best design, with the designs; see the captions."""
-    names, variables = search["objective"].values, search["variable"].values
-    columns = min(len(variables), _MOST_COLUMNS)
-    rows_of_one = -(-len(variables) // columns)
-    rows = rows_of_one * len(names)
-    figure = plt.figure(figsize=(style.PAGE, 1.45 * rows + 1.0))
-    grid = figure.subplots(rows, columns, squeeze=False, sharey=False)
-    for number, name in enumerate(names):
-        panels = grid[number * rows_of_one : (number + 1) * rows_of_one].ravel()
-        objective = _objective(search, name)
-        limits = _limits(objective.values)
-        for place, (axes, key) in enumerate(zip(panels, variables, strict=False)):
-            _draw_slice(axes, search.sel(objective=name, variable=key), objective)
-            axes.set_ylim(limits)
-            if place % columns:
-                axes.tick_params(labelleft=False)
-            else:
-                # how much of the designs' variance the surrogate foretells
-                share = float(search["surrogate_q2"].sel(objective=name)) if "surrogate_q2" in search else np.nan
-                axes.set_ylabel(objective.label + (f"\n$Q^2$ {share:.2f}" if np.isfinite(share) else ""))
-            if rows_of_one > 1 or number == len(names) - 1:
-                axes.set_xlabel(broken_key(str(key)), fontsize=7)
-            else:
-                axes.tick_params(labelbottom=False)
-        for axes in panels[len(variables) :]:
-            axes.set_axis_off()
-    figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=4)
-    known = "slice_mean" in search and bool(search["slice_mean"].notnull().any())
-    figure.suptitle(_title(search) if known else f"{_title(search)}; no surrogate")
     return figure
 
 
@@ -181,30 +142,6 @@ def _draw_rounds(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
     axes.set_ylim(_limits(objective.values))
 
 
-def _draw_slice(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
-    """One objective along one variable."""
-    values = search["value"].values
-    for kept, look in _kinds(search):
-        _points(axes, values[kept], objective.values[kept], **{**look, "markersize": 2.5, "alpha": 0.5})
-    if "slice_mean" in search and search["slice_mean"].notnull().any():
-        factor = shown_unit(search["objective_unit"].item())[1]
-        along, mean, deviation = (search[f"slice_{part}"].values for part in ("value", "mean", "deviation"))
-        low, middle, high = (factor * (mean + number * deviation) for number in (-2.0, 0.0, 2.0))
-        band = "band of two standard deviations"
-        axes.fill_between(along, low, high, color=style.COLOURS[4], alpha=0.3, linewidth=0.0, label=band)
-        axes.plot(along, middle, color=style.COLOURS[0], label="surrogate")
-        share = float(search["sensitivity_total"])
-        if np.isfinite(share):
-            axes.set_title(f"total {max(share, 0.0):.2f}", fontsize=7, pad=2)
-    best = search["order"].values == 1
-    _points(axes, values[:1], objective.values[:1], label=START, **{**_START_LOOK, "markersize": 4})
-    _points(axes, values[best], objective.values[best], label="best", **_BEST_LOOK)
-    lowest, highest = float(search["lowest"]), float(search["highest"])
-    room = 0.04 * (highest - lowest)
-    axes.set_xlim(lowest - room, highest + room)
-    axes.xaxis.set_major_locator(MaxNLocator(3))
-
-
 def _kinds(search: xr.Dataset) -> Iterator[tuple[np.ndarray, dict[str, Any]]]:
     """Which designs break a constraint, and which keep all of them, and how they are drawn; only what there is."""
     feasible = search["feasible"].values.astype(bool)
@@ -241,9 +178,3 @@ def _limits(values: np.ndarray) -> tuple[float, float]:
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
     room = 0.12 * (high - low) or 0.1 * abs(high) or 1.0
     return low - room, high + room
-
-
-def broken_key(key: str) -> str:
-    """A dotted key; a long one with its last part in a second line."""
-    before, dot, last = key.rpartition(".")
-    return key if len(key) <= _LONGEST_KEY or not dot else f"{before}.\n{last}"

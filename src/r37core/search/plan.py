@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 from r37core.base.plain import to_plain
-from r37core.base.varied_number import BLADE, SCENE
 from r37core.config import Settings, operating_range, plain
 from r37core.config.settings import most_runs
 from r37core.plans import paths
@@ -22,8 +21,6 @@ from .problem import START
 from .section import SECTION
 
 DATASET, TABLE = "<results>/search.nc", "<results>/search.csv"
-BEST = "<results>/search/best"
-"""Folder of the best designs' entries, of blades with STEP files and of scenes."""
 
 
 @dataclass(frozen=True)
@@ -43,9 +40,9 @@ class Search:
         """
         settings, designs = self.settings, designs_of(self.settings)
         start = Evaluation(settings, Path(), one_by_one, 1).runs(START, None)
-        written = [[designs.varied(kind), designs.entries(kind)] for kind in (BLADE, SCENE)]
+        entries = [plain(designs.start), *(plain(settings.scene_designs.entries[scene]) for scene in designs.scenes)]
         tolerances = designs.entry.tolerances and plain(designs.entry.tolerances)
-        return to_plain([start, choice_of(settings), tolerances, operating_range(settings), designs.entry.best, written])
+        return to_plain([start, choice_of(settings), tolerances, operating_range(settings), entries])
 
     def budget(self, wildcards: Any) -> list[int]:
         """Number of designs of each round."""
@@ -59,8 +56,8 @@ def _once(sweep: Sweep) -> paths.Wildcards:
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The dataset, the table and the best designs."""
-    return dict.fromkeys((DATASET, TABLE, BEST), _once(sweep))
+    """The dataset and the table."""
+    return dict.fromkeys((DATASET, TABLE), _once(sweep))
 
 
 def simulations(settings: Settings) -> dict[Pair, int]:
@@ -103,19 +100,6 @@ EXTENSION = Extension(
             "designs. Right: the objectives against each other, or a single one over the rounds. Designs that break a "
             "constraint are pale. Of those in orange no other that keeps the constraints is better in all objectives. Bars: "
             "standard deviation by chance.",
-            category="Search",
-        ),
-        Figure(
-            rule="search_slices_figure",
-            name="search_slices",
-            runs=_once,
-            draw="search.figures.draw_slices",
-            files={"search": DATASET},
-            label="slices",
-            caption="Each objective along each variable. The line is the mean of the surrogate, the band two standard "
-            "deviations; the other variables are those of the best design. Points are the designs, which differ in the other "
-            "variables, too. Above: share of the surrogate's variance in which the variable has a part. Beside: Q2, the share "
-            "of the designs' variance that the surrogate predicts at designs left out.",
             category="Search",
         ),
     ),

@@ -105,7 +105,6 @@ class SearchSection(Section):
         default="surrogate", description="Way to propose designs; quasi_random spreads them evenly, for comparison"
     )
     seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the search")
-    best: int = Field(default=3, ge=1, le=50, description="Number of best designs written as entries and STEP files")
     tolerances: SearchTolerances | LeftOut = Field(default=None, description="Tolerances of objectives with a quantile")
 
     def _check(self) -> None:

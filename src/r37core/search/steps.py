@@ -8,34 +8,28 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import xarray as xr
-
 from r37core.base.dataset_file import write_dataset
 from r37core.base.io import JOB_NEWS
 from r37core.base.origin import origin
 from r37core.base.plain import to_plain
-from r37core.base.varied_number import BLADE, SCENE
-from r37core.blade.geometry_file import read_geometry
-from r37core.exchange.step_file import write_step
 from r37core.results.closing import counted
 from r37core.results.table_file import write_table
 from r37core.surrogate.designs import Design, best_first, not_dominated
 from r37core.surrogate.proposal import first_designs, propose
 from r37core.sweep.forks import forked_results
 
-from .dataset import BLADES_HEADER, SCENES_HEADER, search_dataset, search_table, write_entries
+from .dataset import search_dataset, search_table
 from .designs import choice_of
 from .evaluation import Evaluation
 from .problem import QUASI_RANDOM, START, SearchChoice
 
 
 def search(input: Any, output: Any, params: Any) -> None:
-    """Search for designs, round by round. Outputs: dataset (nc), table (csv), best (folder).
+    """Search for designs, round by round. Outputs: dataset (nc), table (csv).
 
     Params: carried (the settings), budget (designs of each round), fidelity, cores.
     """
-    settings, folder = params.carried.settings, Path(output.best).parent
+    settings, folder = params.carried.settings, Path(output.dataset).with_suffix("")
     choice, run_all = choice_of(settings), partial(forked_results, params.cores)
     evaluation = Evaluation(settings, folder, run_all, params.cores)
     tried: dict[str, Design] = {}
@@ -56,7 +50,6 @@ def search(input: Any, output: Any, params: Any) -> None:
     digest = hashlib.sha256(json.dumps(to_plain(tried)).encode()).hexdigest()[:32]
     write_dataset(dataset, output.dataset, {"fidelity": params.fidelity, "input_hash": digest} | origin("Designs of a search"))
     write_table(search_table(dataset), output.table, digits=6)
-    _write_best(dataset, evaluation, Path(output.best))
 
 
 def next_designs(tried: Mapping[str, Design], count: int, choice: SearchChoice) -> dict[str, tuple[float, ...]]:
@@ -88,17 +81,3 @@ def _so_far(tried: Mapping[str, Design], choice: SearchChoice) -> str:
     refused = sum(bool(design.refused) for design in designs)
     cannot = f", {refused} of them cannot be built" if refused else ""
     return f"{len(designs)} tried{cannot}: {best or 'none can be built and keeps all constraints'}"
-
-
-def _write_best(search: xr.Dataset, evaluation: Evaluation, folder: Path) -> None:
-    """Write entries of the best designs, of blades and of scenes where a variable is of these, and STEP files of blades."""
-    ordered, designs = search.isel(design=np.flatnonzero(search["order"].values > 0)).sortby("order"), evaluation.designs
-    best = ordered["design"].values[: designs.entry.best].tolist()
-    folder.mkdir(parents=True)
-    for kind, header, file in ((BLADE, BLADES_HEADER, "blades.yaml"), (SCENE, SCENES_HEADER, "scenes.yaml")):
-        varied = designs.varied(kind)
-        if any(varied.values()):
-            names = write_entries(search, best, designs.entries(kind), varied, header, folder / file)
-            for name, design in zip(names, best, strict=True) if kind == BLADE else ():
-                values = search["value"].sel(design=design).values.tolist()
-                write_step(read_geometry(evaluation.geometry(design, values)), folder / f"{name}.step")

@@ -67,12 +67,6 @@ class Fit:
         points, numbers = np.vstack([self.points, point]), np.append(self.numbers, expected)
         return self._through(points, numbers, np.append(self.variances, 1e-8))
 
-    def without(self, index: int) -> float:
-        """Mean of a process that varies, where one number is left out, at its point, with the hyperparameters of all."""
-        kept = np.arange(len(self.points)) != index
-        rest = self._through(self.points[kept], self.numbers[kept], self.variances[kept])
-        return float(rest.at(self.points[index : index + 1])[0][0])
-
     def _through(self, points: np.ndarray, numbers: np.ndarray, variances: np.ndarray) -> Self:
         """A process with the same hyperparameters through other numbers."""
         process = _regressor(self.process.kernel_, variances, optimizer=None)
