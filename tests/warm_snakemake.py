@@ -221,8 +221,11 @@ def _made_once(step, input, output, params):
     digests = [sha256(Path(file).read_bytes()).hexdigest() for file in input]
     kept = Path(os.environ["R37_CACHE"], "steps", sha256(repr((about, digests)).encode()).hexdigest())
     if kept.exists():
+        atomic_write = import_module("r37core.base.io").atomic_write
         for number, file in enumerate(output):
-            shutil.copy(kept / str(number), file)
+            # as steps write: a job that is killed leaves no half of a file
+            with atomic_write(file) as temporary:
+                shutil.copy(kept / str(number), temporary)
         return json.loads((kept / "shown.json").read_text())
     shown, made = step(input, output, params), kept.with_name(f"{kept.name}_{os.getpid()}")
     made.mkdir(parents=True)
