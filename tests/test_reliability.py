@@ -23,7 +23,7 @@ from snakemake.exceptions import InputFunctionException, WorkflowError, format_e
 from stubbed_runs import copy_stubbed
 from workflow_runs import copy_project, kill_snakemake, snakemake
 
-from r37core.base.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
+from r37core.base.dataset_file import SPEED, about, read_dataset, write_dataset
 from r37core.base.io import InputFileError, OutputFileError, atomic_write, function_named, scratch_folder, write_json
 from r37core.base.speeds import plan_speeds
 from r37core.config import ConfigError, command_line_document
@@ -37,7 +37,7 @@ from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
 from r37core.product.leftovers import main as clean
 from r37core.product.remarks import replaced_level, source_folder
-from r37core.results.joining import create_axis, create_variable
+from r37core.results.joining import add_variable, create_axis
 from r37core.rom.rotation import BucklingError
 from r37core.sweep import recipe
 from r37core.time_integration.simulate import Simulation
@@ -300,7 +300,7 @@ def test_a_filter_below_the_first_mode_is_refused(contact):
 
 
 def test_a_flipped_bit_is_found(tmp_path):
-    """In a dataset, and in a response's variable and axis."""
+    """In a dataset, and in variable and axis of a joined one."""
     joined, response = tmp_path / "joined.nc", tmp_path / "response.nc"
     # any bits: nothing to compress, so that the files have them as they are, of a response byte by byte of all numbers
     values = np.frombuffer(np.random.default_rng(1).bytes(2400))
@@ -308,7 +308,7 @@ def test_a_flipped_bit_is_found(tmp_path):
     np.testing.assert_array_equal(read_dataset(joined)["a"], values)
     with netCDF4.Dataset(response, "w") as dataset:
         create_axis(dataset, "speed", np.arange(300.0), SPEED.attributes)
-        create_variable(dataset, "a", Variable(("speed",), "m", "a"))[:] = values
+        add_variable(dataset, "a", ("speed",), "f8", about("m", "a"))[:] = values
     by_bytes, axis = values.view(np.uint8).reshape(-1, 8).T.tobytes(), np.arange(300.0).tobytes()
     for file, stored in ((joined, values.tobytes()), (response, by_bytes), (response, axis)):
         sound = file.read_bytes()

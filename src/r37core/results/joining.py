@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.base.dataset_file import SPEED_RPM, Variable, about, attributes_of, joined_hash, new_netcdf, open_dataset
+from r37core.base.dataset_file import SPEED_RPM, about, attributes_of, joined_hash, new_netcdf, open_dataset
 from r37core.base.origin import origin
 from r37core.base.units import RPM
 
@@ -144,11 +144,6 @@ def create_axis(dataset: netCDF4.Dataset, name: str, values: Any, attributes: Ma
         axis = dataset.createVariable(coordinate, numbers.dtype, (name,), fill_value=False, fletcher32=True)
         axis.setncatts(described)
         axis[:] = numbers
-
-
-def create_variable(dataset: netCDF4.Dataset, name: str, variable: Variable, along: Sequence[str] = ()) -> netCDF4.Variable:
-    """A variable as its table has it, with the dimensions `along` before its own."""
-    return add_variable(dataset, name, (*along, *variable.dims), variable.dtype, variable.attributes)
 
 
 def add_variable(

@@ -1,23 +1,18 @@
-"""response.nc: all speeds of one blade and scene, written in blocks so that memory does not grow with the speeds."""
+"""response.nc: all speeds of one blade and scene."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-import netCDF4
 import numpy as np
 
-from r37core.base.dataset_file import new_netcdf
+from r37core.base.dataset_file import dataset_of, write_dataset
 from r37core.stress.statistic import UNKNOWN, Strengths, goodman_statistic, stress_statistic
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
-from .joining import create_axis, create_variable
 from .limits import beyond_limits
 from .measures import first_yield
 from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, PLACES, VARIABLES
-
-_BLOCK = 32
-"""Speeds that are in memory at once, since writing takes as long for one as for many."""
 
 
 def write_response(
@@ -30,27 +25,24 @@ def write_response(
     strengths: Strengths = UNKNOWN,
     provenance: Mapping[str, object],
 ) -> None:
-    """Reduce the files of the `speeds` (rad/s, ascending), in the same order, to one file; _BLOCK are in memory at a time.
+    """Reduce the files of the `speeds` (rad/s, ascending), in the same order, to one file.
 
     Speeds in `stress_history_speeds`, which have recorded it, keep the largest stress of every revolution. `yield_stress` (Pa)
     and `strengths`: of the blade's material. Raises InputFileError for a file that cannot be read.
     """
-    history_speeds = [speed for speed in speeds if speed in stress_history_speeds]
-    with new_netcdf(file, provenance) as dataset:
-        runs = list(zip(speeds, files, strict=True))
-        for first in range(0, len(runs), _BLOCK):
-            block = slice(first, first + _BLOCK)
-            rows = {speed: run_row(read_speed(file), yield_stress, strengths) for speed, file in runs[block]}
-            values = next(iter(rows.values()))
-            if first == 0:
-                _create(dataset, speeds, values, history_speeds)
-            for name in VARIABLES:
-                if name in values:
-                    dataset[name][block] = np.stack([row[name] for row in rows.values()])
-            for speed in rows.keys() & history_speeds:
-                history, number = rows[speed]["revolution_von_mises"], history_speeds.index(speed)
-                dataset["max_von_mises_history"][number] = history
-                dataset["first_yield_revolution"][number] = [first_yield(part, yield_stress) for part in history]
+    rows, histories = [], {}
+    for speed, speed_file in zip(speeds, files, strict=True):
+        last = run_row(read_speed(speed_file), yield_stress, strengths)
+        rows.append({name: np.asarray(last[name], entry.dtype) for name, entry in VARIABLES.items() if name in last})
+        if speed in stress_history_speeds:
+            histories[speed] = last["revolution_von_mises"]
+    values = last | {name: np.stack([row[name] for row in rows]) for name in rows[0]} | {"speed": speeds}
+    if histories:
+        values |= {"history_speed": [*histories], "max_von_mises_history": np.stack([*histories.values()])}
+        values["first_yield_revolution"] = [[first_yield(part, yield_stress) for part in each] for each in histories.values()]
+    labels = {"tip_point": list(TIP_POINTS)} | ({"region": values["region"]} if "region" in values else {})
+    response = dataset_of(VARIABLES, values, AXES, labels, ("speed",))
+    write_dataset(response.merge(dataset_of(OF_ALL_SPEEDS | HISTORIES, values, {}, {})), file, provenance)
 
 
 def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Strengths) -> dict[str, np.ndarray]:
@@ -91,25 +83,3 @@ def in_statistic(run: Mapping[str, np.ndarray], name: str) -> np.ndarray:
     # a history of all revolutions has them in place, a shorter one is that of the last
     last = history[:, :end] if history.shape[1] == revolutions else history
     return last[:, -int(run["statistic_revolutions"]) :]
-
-
-def _create(
-    dataset: netCDF4.Dataset, speeds: Sequence[float], values: Mapping[str, np.ndarray], history_speeds: Sequence[float]
-) -> None:
-    coordinates = {name: values[name] for name in AXES if name in values} | {"speed": np.array(speeds)}
-    if history_speeds:
-        coordinates["history_speed"] = np.array(history_speeds)
-    create_axis(dataset, "tip_point", TIP_POINTS)
-    if "region" in values:
-        create_axis(dataset, "region", values["region"])
-    for name, numbers in coordinates.items():
-        create_axis(dataset, name, np.asarray(numbers, AXES[name].dtype), AXES[name].attributes)
-    for name, variable in VARIABLES.items():
-        if name in values:
-            create_variable(dataset, name, variable, ("speed",))
-    for name, variable in HISTORIES.items() if history_speeds else ():
-        create_variable(dataset, name, variable)
-    for name, variable in OF_ALL_SPEEDS.items():
-        if name in values:
-            value = values[name]
-            create_variable(dataset, name, variable)[...] = value.astype(object) if variable.dtype == "str" else value
