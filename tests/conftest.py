@@ -223,12 +223,6 @@ def displaced(reduced):
 
 
 @pytest.fixture(scope="session")
-def turning(reduced):
-    """The reduced model with the Coriolis force."""
-    return reduced(coriolis=True)
-
-
-@pytest.fixture(scope="session")
 def contact(model):
     from r37core.rom.reduced_model import contact_model
 

@@ -40,7 +40,7 @@ RING = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
 """Of steel, with eleven modes: more pairs than a vector has numbers."""
 
 
-def model_of_node(rows, frequencies, radius=0.25, tip_cone_angle=0.0, per_square=0.0, coriolis=None):
+def model_of_node(rows, frequencies, radius=0.25, tip_cone_angle=0.0, per_square=0.0):
     """One node, which is the whole tip, moved by modes of these frequencies (rad/s): its rows have shape (3, modes).
 
     `per_square`: change of every mode's stiffness per squared speed.
@@ -56,7 +56,6 @@ def model_of_node(rows, frequencies, radius=0.25, tip_cone_angle=0.0, per_square
         tip_cone_angle=tip_cone_angle,
         tip_displacement_operator=np.repeat(rows, 2, axis=1),
         to_reduced=np.eye(modes),
-        coriolis=coriolis,
         rotation_shapes=np.zeros((3, 1, 1)),
         rotation_stiffening=np.zeros(1),
     )
@@ -115,30 +114,17 @@ def with_modes(model, frequency, rows):
         displacement_operator=np.concatenate([model.displacement_operator, frequency * rows], axis=-1),
         tip_displacement_operator=last_axis(model.tip_displacement_operator),
         to_reduced=last_axis(model.to_reduced),
-        coriolis=None if model.coriolis is None else np.pad(model.coriolis, (0, more)),
     )
 
 
-def bits_of_programs(coriolis=True):
-    """SHA-256 of samples, totals and wear of a run of every sort of program: name of the run -> digits.
-
-    All but the Coriolis force, which may be left out, share one.
-    """
+def bits_of_programs():
+    """SHA-256 of samples, totals and wear of runs that share a program: name of the run -> digits."""
     blade, ring = with_static_modes(random_model(8), 1e-9), replace(AT_ONCE, ring=RING.modes())
-    coupling = 3.0 * np.random.default_rng(9).standard_normal((24, 24))
-    turning = with_static_modes(replace(random_model(8), coriolis=coupling - coupling.T), 1e-9)
     choice = IntegrationChoice(2e-7, 2, 31, integrator=EXACT_MODAL)
-    scenes = {
-        "lined": (blade, ABRADABLE),
-        "direct": (blade, DIRECT),
-        "elastic ring": (blade, replace(ABRADABLE, casing=ring)),
-        "coriolis": (turning, DIRECT),
-    }
+    scenes = {"lined": ABRADABLE, "direct": DIRECT, "elastic ring": replace(ABRADABLE, casing=ring)}
     bits = {}
-    for name, (model, scene) in scenes.items():
-        if name == "coriolis" and not coriolis:
-            continue
-        simulation = Simulation(model, 12_000.0, scene, choice)
+    for name, scene in scenes.items():
+        simulation = Simulation(blade, 12_000.0, scene, choice)
         state = simulation.start()
         bits[name] = _hash_of([simulation.advance(state, choice.revolutions)], [state])
     blades = Rotor((1, 2), (0.0, np.pi), (1.0, 1.0), (0.0, 0.0), True)

@@ -86,17 +86,13 @@ def assert_stable(model, choice, modulus, steps, counts):
 def _pressed_step(contact, nodes, bar):
     """A step of u and d with `nodes` on bars of a stiffness (N/m), as a matrix.
 
-    The force at t_n is -K (N_u u_n + N_d d_n), K = (1/bar + R)^-1 of the nodes pressed; with Coriolis half of its own kick is
-    in R, and without it N_d is none.
+    The force at t_n is -K N u_n, K = (1/bar + R)^-1 of the nodes pressed.
     """
     recursion, modes = contact.recursion, len(contact.recursion.keep)
-    by_u, by_d = (
-        rows[0, nodes] if rows.size else np.zeros((len(nodes), modes))
-        for rows in (contact.displacement_operator, contact.increment_operator)
-    )
+    rows = contact.displacement_operator[0, nodes]
     held = np.linalg.inv(np.eye(len(nodes)) / bar + contact.contact_flexibility[0][np.ix_(nodes, nodes)].T)
     kick = recursion.inverse / recursion.keep
-    moved_by_force = np.vstack([-kick[:, None] * by_d.T, kick[:, None] * by_u.T])
-    kicked = np.eye(2 * modes) - moved_by_force @ held @ np.hstack([by_u, by_d])
+    kicked = np.eye(2 * modes)
+    kicked[modes:, :modes] = -kick[:, None] * rows.T @ held @ rows
     increment = np.hstack([-np.diag(recursion.pull), np.diag(recursion.keep)]) @ kicked
     return np.vstack([kicked[:modes] + increment, increment])

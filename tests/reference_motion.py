@@ -10,10 +10,8 @@ the modes at rest, in displacements and forces.
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import expm
 
 from r37core.rom.quadratic_terms import products_of
-from r37core.time_integration.gyroscopic import ComplexRecursion, imaginary_part
 
 
 class RealMotion:
@@ -120,74 +118,6 @@ class QuadraticMotionOfModes(RealMotion):
         return super().work_and_loss(before, after, self._modal_force(before[0], force))
 
 
-class CoupledMotion:
-    """Modes that the Coriolis force couples, in y = (W q, q') of the stepped modes q: real, without complex modes.
-
-    y' = A y in free flight (see r37core.time_integration.gyroscopic). Damping turns every eigenvalue i w of A into
-    -xi w + i w sqrt(1 - xi^2): y' = (sqrt(1 - xi^2) A - xi (-A^2)^(1/2)) y, and Phi is the exponential of that times the step.
-    Where xi depends on w it is that function of (-A^2)^(1/2).
-    A force is a kick at the beginning of a step, y + Theta (0, f), with Theta = [-A S]^-1 (I - Phi)^T (I - Phi) and
-    S = (Phi - Phi^T)/2: 2 A^-1 tanh(A h/2) without damping, so that mid-kick a constant force holds the static deflection.
-    The energy y^T S^T S [(I - Phi)^T (I - Phi)]^-1 y/2 changes by the work f^T W^-1 [S y]_q of the state mid-kick.
-    """
-
-    products = 0
-
-    def __init__(self, problem, recursion):
-        coupled, coupling = problem.blade.complex_modes, problem.blade.gyroscopic_coupling
-        self._modes, self._root, self._coupled = problem.blade.modes, problem.blade.frequencies, coupled
-        modes, step = len(self._root), problem.grid.time_step
-        system = np.block([[np.zeros((modes, modes)), np.diag(self._root)], [-np.diag(self._root), -coupling]])
-        squares, axes = np.linalg.eigh(-system @ system)
-        # each frequency stands there twice
-        ratio = np.repeat(np.broadcast_to(problem.scene.damping(np.sqrt(squares[::2]), problem.speed), modes), 2)
-        turning, decay = ((axes * part) @ axes.T for part in (np.sqrt(1.0 - ratio**2), ratio * np.sqrt(squares)))
-        self._flight = expm(step * (turning @ system - decay))
-        left = np.eye(2 * modes) - self._flight
-        gain, self._swing = left.T @ left, 0.5 * (self._flight - self._flight.T)
-        self._kick = np.linalg.solve(-system @ self._swing, gain)[:, modes:]
-        self._energy = self._swing.T @ self._swing @ np.linalg.inv(gain)
-        self._back = np.linalg.inv(self._flight)
-        # of the two roots of the recursion that of the motion, which may turn by more than half a turn in a step
-        ratio = problem.scene.damping(coupled.frequencies, problem.speed)
-        sense = np.sign(np.sin(step * np.sqrt(1.0 - ratio**2) * coupled.frequencies))
-        self._u_factor, self._d_factor = sense * imaginary_part(recursion[:modes])
-        self.response = self._modes @ (self._flight @ self._kick / np.tile(self._root, 2)[:, None])[:modes] @ self._modes.T
-
-    def read(self, state):
-        amplitude = state.displacement + 1j * (self._u_factor * state.displacement + self._d_factor * state.increment)
-        moving = self._coupled.shapes * amplitude
-        return np.concatenate([self._root * moving.real.sum(axis=1), -(moving @ self._coupled.frequencies).imag])
-
-    def write(self, motion, state):
-        state.displacement[:], state.increment[:] = self.numbers(motion).reshape(2, -1)
-
-    def numbers(self, motion):
-        elastic, velocity = np.split(motion, 2)
-        frequencies = self._coupled.frequencies
-        amplitude = self._coupled.shapes.conj().T @ (self._root * elastic) / frequencies**2
-        amplitude = amplitude - 1j * (self._coupled.shapes.conj().T @ velocity) / frequencies
-        return np.concatenate([amplitude.real, (amplitude.imag - self._u_factor * amplitude.real) / self._d_factor])
-
-    def flown(self, motion):
-        return self._flight @ motion
-
-    def pushed(self, motion, force):
-        return motion + self._flight @ self._kick @ (self._modes.T @ force)
-
-    def displacement(self, motion):
-        return self._modes @ (motion[: len(self._root)] / self._root)
-
-    def slid(self, motion):
-        return self.displacement(motion - self._back @ motion)
-
-    def work_and_loss(self, before, after, force):
-        kick = self._kick @ (self._modes.T @ force)
-        kicked = before + kick
-        work = force @ self.displacement(self._swing @ (before + 0.5 * kick))
-        return float(work), float(0.5 * (kicked @ self._energy @ kicked - after @ self._energy @ after))
-
-
 class MotionWithCasing:
     """A blade's motion, and beside it that of an elastic casing: u and d of its modes in the frame that does not turn.
 
@@ -257,13 +187,8 @@ class MotionWithCasing:
         work, loss = self._blade.work_and_loss(before[0], after[0], force[: self._rest_modes])
         if not self.counted:
             return work, loss
-        own, casing_force, (u, d) = self._casing, force[self._rest_modes :], before[1]
-        if isinstance(own, ComplexRecursion):
-            kicked = d + own.inverse / own.keep * casing_force
-            uu, ud, dd = own.loss_form
-            lost = float(np.sum(uu * u**2 + ud * u * kicked + dd * kicked**2))
-            return work + own.energy(*after[1]) - own.energy(u, d) + lost, loss + lost
-        moved = d + after[1][1]
+        own, casing_force = self._casing, force[self._rest_modes :]
+        moved = before[1][1] + after[1][1]
         return work + float(0.5 * casing_force @ moved), loss + float(own.loss @ moved**2)
 
 
@@ -271,8 +196,6 @@ def motion_of(problem, recursion):
     """Motion of a problem's blade, and of its elastic casing."""
     if problem.contact.quadratic is not None:
         blade = QuadraticMotionOfModes(problem, recursion)
-    elif problem.blade.complex_modes is not None:
-        blade = CoupledMotion(problem, recursion)
     else:
         blade = RealMotion(problem.blade.modes, recursion)
     return blade if problem.casing.ring is None else MotionWithCasing(blade, problem, recursion)

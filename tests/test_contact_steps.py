@@ -483,19 +483,14 @@ def test_an_edge_that_does_not_reach_the_casing(contact):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", [CENTRAL_DIFFERENCE, EXACT_MODAL])
-@pytest.mark.parametrize("scene", ["direct", "direct_exact", "thin_lining", "elastic", "coriolis"])
+@pytest.mark.parametrize("scene", ["direct", "direct_exact", "thin_lining", "elastic"])
 def test_both_engines_find_the_same_penetration(scene, integrator):
     model = random_model(8)
     if integrator == EXACT_MODAL:
         model = with_static_modes(model, 1e-9)
-    elif scene in ("coriolis", "elastic"):
-        pytest.skip("central differences carry no Coriolis force, and step a casing in other tests")
-    if scene == "coriolis":
-        modes = len(model.squared_frequencies)
-        coupling = np.zeros((modes, modes))
-        coupling[:24, :24] = np.random.default_rng(9).standard_normal((24, 24))
-        model = replace(model, coriolis=3.0 * (coupling - coupling.T))
-    surroundings = {"elastic": replace(DIRECT, casing=replace(AT_ONCE, ring=RING.modes())), "coriolis": DIRECT} | SCENES
+    elif scene == "elastic":
+        pytest.skip("central differences step a casing in other tests")
+    surroundings = {"elastic": replace(DIRECT, casing=replace(AT_ONCE, ring=RING.modes()))} | SCENES
     choice = IntegrationChoice(2e-7, 1, 31, integrator=integrator)
     (_, ours, _), (_, theirs, _) = both_engines(with_edge(model, 50), 12_000.0, surroundings[scene], choice)
     assert theirs.totals["largest_penetration"] > 1e-6

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from defaults import Casing, Friction, IntegrationChoice, Scene
-from integration_cases import ABRADABLE, ELASTIC, oscillator, random_model, with_static_modes
+from integration_cases import ABRADABLE, ELASTIC, SCENES, oscillator, random_model, with_static_modes
 from integration_cases import RING as STEEL
 from integration_runs import (
     ENGINES,
@@ -19,7 +19,6 @@ from integration_runs import (
     whole_run,
 )
 from scipy.integrate import solve_ivp
-from test_coriolis import SCENES, coupled_model
 
 from r37core.base.plain import to_plain
 from r37core.config import ConfigError, checked_scene, command_line_document
@@ -110,21 +109,13 @@ def test_a_rigid_translation_has_the_mass_of_the_ring_and_of_its_foundation_the_
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "step", "coriolis"),
-    [
-        *((name, 1.2e-6, False) for name in ELASTIC_SCENES),
-        ("abradable", 2e-7, False),
-        *((name, 1.2e-6, True) for name in ("direct", "abradable_constant", "thin_lining")),
-    ],
-)
-def test_compiled_time_integration_is_the_reference(name, step, coriolis):
+@pytest.mark.parametrize(("name", "step"), [*((name, 1.2e-6) for name in ELASTIC_SCENES), ("abradable", 2e-7)])
+def test_compiled_time_integration_is_the_reference(name, step):
     """In the rotor's frame by pairs that turn, and in the frame that does not turn with nodes that go round."""
-    model = coupled_model() if coriolis else random_blade()
     choice = replace(CHOICE, time_step=step, snapshots_per_revolution=62, snapshot_revolutions=1)
     found = []
     for simulation_class in ENGINES.values():
-        simulation = simulation_class(model, 6000.0, ELASTIC_SCENES[name], choice)
+        simulation = simulation_class(random_blade(), 6000.0, ELASTIC_SCENES[name], choice)
         state = simulation.start()
         # stopped in the middle of a revolution
         records = [simulation.advance_samples(state, count) for count in (25, 37)]
@@ -150,11 +141,9 @@ def test_published_scheme_carries_the_casing(name):
 
 
 @pytest.mark.parametrize("name", ["direct", "abradable", "thin_lining"])
-@pytest.mark.parametrize("coriolis", [False, True])
-def test_a_casing_of_great_mass_is_rigid(name, coriolis):
+def test_a_casing_of_great_mass_is_rigid(name):
     heavy = with_ring(SCENES[name], [replace(mode, modal_mass=1e15) for mode in STEEL.modes()])
-    blade = coupled_model() if coriolis else random_blade()
-    elastic, rigid = (whole_run(blade, 3000.0, scene, CHOICE)[2].samples for scene in (heavy, SCENES[name]))
+    elastic, rigid = (whole_run(random_blade(), 3000.0, scene, CHOICE)[2].samples for scene in (heavy, SCENES[name]))
     assert_close(elastic, rigid, 1e-10)
 
 

@@ -11,8 +11,6 @@ import numpy as np
 import pandas as pd
 import pytest
 import pyvista
-import scipy.io
-import scipy.linalg as la
 import scipy.sparse as sp
 from box_operator import box_operator
 from defaults import MatricesSource, Orientation
@@ -98,7 +96,7 @@ def test_results_in_the_axes_of_another_program(whole, mesh, steel, instant, tmp
 
 
 def test_full_matrices_come_back(directory, model, boundary, reduction):
-    """The same reduced model to round-off: frequencies, names, contact rows. Without the Coriolis force it has no file."""
+    """The same reduced model to round-off: frequencies, names, contact rows."""
     assert {file.name for file in directory.iterdir()} == NAMES
     again = import_matrices(MatricesSource(str(directory), OURS), boundary, reduction)
     speeds = np.array([0.0, 700.0, 1700.0])
@@ -133,54 +131,6 @@ def test_reduced_matrices_come_back_in_any_unit(reduced_files, model, boundary, 
     np.testing.assert_allclose(again.mass, 1e3 * model.mass, atol=1e-9 * np.abs(model.mass).max())
     expected = 1e3 * model.stiffness_at(900.0)
     np.testing.assert_allclose(again.stiffness_at(900.0), expected, atol=1e-6 * np.abs(model.stiffness).max())
-
-
-def gyroscopic(mass, stiffness, coriolis, count):
-    """Angular frequencies and shapes of M x'' + G x' + K x = 0, of the plain eigenproblem of (x, x')."""
-    size, inverse = len(mass), np.linalg.inv(mass)
-    system = np.block([[np.zeros((size, size)), np.eye(size)], [-inverse @ stiffness, -inverse @ coriolis]])
-    values, vectors = la.eig(system)
-    rising = np.flatnonzero(values.imag > 0.0)
-    order = rising[np.argsort(values.imag[rising])][:count]
-    return values.imag[order], vectors[:size, order]
-
-
-def test_the_reduced_coriolis_matrix(turning, boundary, reduction, tmp_path):
-    """From the files alone: the frequencies of the Campbell diagram, and motions that turn about the same way."""
-    speed = 2000.0
-    write_reduced_matrices(turning, (0.0, 1000.0, speed), tmp_path)
-    mass, stiffness, coriolis = (scipy.io.mmread(tmp_path / f"{name}.mtx") for name in ("M", "K_2000", "G"))
-    np.testing.assert_array_equal(coriolis, -coriolis.T)
-    frequencies, shapes = gyroscopic(mass, stiffness, speed * coriolis, 8)
-    diagram = campbell_diagram(turning, np.array([speed]), 6).frequencies.ravel()
-    plain = campbell_diagram(replace(turning, coriolis=None), np.array([speed]), 6).frequencies.ravel()
-    assert np.abs(plain / diagram - 1.0).max() > 1e-4
-    np.testing.assert_allclose(np.sort(2 * np.pi * diagram), np.sort(frequencies)[:6], rtol=1e-8)
-    # frequencies are those of -G, too; the shapes are then the conjugate ones
-    _, expected = turning.modes(speed, 8)
-    found, conjugate = (
-        np.abs(np.sum(expected.conj() * (mass @ one), axis=0)) / np.sqrt(np.sum((one.conj() * (mass @ one)).real, axis=0))
-        for one in (shapes, shapes.conj())
-    )
-    np.testing.assert_allclose(found, 1.0, rtol=1e-6)
-    assert conjugate.min() < 0.999
-    header = (tmp_path / "G.mtx").read_text().splitlines()[:2]
-    assert header[0] == "%%MatrixMarket matrix array real skew-symmetric"
-    assert "in kg, that is N s/m per rad/s: M x'' + Omega G x' + K(Omega) x = f, for Omega > 0" in header[1]
-    # the matrices come back, without it
-    again = import_matrices(MatricesSource(str(tmp_path), OURS), boundary, reduction)
-    assert again.coriolis is None
-    np.testing.assert_allclose(again.modes(1400.0, 12)[0], replace(turning, coriolis=None).modes(1400.0, 12)[0], rtol=1e-8)
-
-
-def test_the_full_coriolis_matrix(matrices, turning, tmp_path):
-    """The mass that moves across the axis, at right angles to its velocity."""
-    write_full_matrices(matrices, turning, "pressure_edge", (0.0, 1000.0, 2000.0), tmp_path)
-    mass, coriolis = (sp.csr_array(scipy.io.mmread(tmp_path / f"{name}.mtx")) for name in ("M", "G"))
-    # 2 Omega x velocity, Omega along -z
-    across = sp.kron(sp.eye_array(mass.shape[0] // 3), np.array([[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))
-    assert abs(coriolis - mass @ across).max() <= 1e-15 * abs(coriolis).max()
-    assert abs(coriolis + coriolis.T).max() == 0.0
 
 
 def test_reduced_matrices_in_other_axes(model, boundary, reduction, tmp_path):

@@ -262,16 +262,6 @@ def test_spin_softening_lowers_lead_lag_by_omega_squared():
     assert without[1 - lag] - with_softening[1 - softened_lag] == pytest.approx(0.0, abs=2e-3 * speed**2)
 
 
-def test_coriolis_is_skew_and_does_no_work(matrices):
-    coriolis = matrices.coriolis()
-    assert abs(coriolis + coriolis.T).max() == 0.0
-    # Omega = -z: the Coriolis term 2 Omega x v of a velocity along x points towards -y
-    velocity = np.tile([1.0, 0.0, 0.0], len(matrices.free_nodes))
-    force = (coriolis @ velocity).reshape(-1, 3).sum(axis=0)
-    assert force[0] == force[2] == 0.0
-    assert force[1] < 0.0
-
-
 def test_results_do_not_change_from_run_to_run(mesh, matrices):
     again = assemble(mesh, MATERIAL)
     np.testing.assert_array_equal(again.stiffness_blocks, matrices.stiffness_blocks)

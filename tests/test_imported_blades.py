@@ -213,7 +213,6 @@ def test_matrices_that_cannot_be_meant(settings_with, changes, message):
     ("entry", "old", "new", "message"),
     [
         (MATRICES, "spin_softening: false", "spin_softening: true", r"\.spin_softening: .* put the term into its K_<speed>"),
-        (MATRICES, "coriolis: false", "coriolis: true", r"\.coriolis: .* a Coriolis matrix of another program is not read"),
         (MATRICES, "[abradable, direct]", "[growing_abradable]", r"\.centrifugal: found true, as.*'Fan', given by matrices"),
         (MESH, "rad_s: worst", "rad_s: [1000.5]", r"exports\.stress_speeds_rad_s\.0: found 1000\.5; .* speeds that are sim"),
         (MESH, "full_matrices: false", "mode_speeds_rad_s: [0, 2500]", r"exports\.mode_speeds_rad_s\.1: found 2500; .*, 2000"),

@@ -10,7 +10,6 @@ from integration_runs import ENGINES, assert_close, free_motion, times, whole_ru
 from scipy.linalg import expm
 
 from r37core.contact.ring import RingMode
-from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, INTEGRATORS
 from r37core.time_integration.simulate import Simulation
@@ -128,35 +127,6 @@ def test_what_is_not_stepped_is_left_out(model, contact):
     # the energy that a velocity has is told, too
     velocity = motion(None, frequencies[0] * slow + frequencies[-1] * np.sqrt(3.0) * fast)
     assert velocity.left_out(simulation.problem) == pytest.approx(0.75, abs=1e-9)
-
-
-@pytest.mark.parametrize("engine", ENGINES)
-def test_free_flight_with_the_coriolis_force(turning, engine):
-    """Without damping the exponential of the reduced matrices, of all coordinates; steps in which fast modes do not move."""
-    speed, scene, modes = 4800.0, replace(FAR, damping_ratio=0.0), 4
-    model = contact_model(turning, "pressure_edge")
-    start = slow_part(replace(turning, coriolis=None), speed, modes, np.random.default_rng(2))
-    chosen = choice(EXACT_MODAL, snapshots_per_revolution=50, snapshot_revolutions=1)
-    simulation, _, record = whole_run(model, speed, scene, chosen, motion(*start), engine)
-    problem = simulation.problem
-    # of the modes that are stepped: the others' part of the force is left out
-    reduced = model.to_reduced @ problem.blade.modes
-    coupling = speed * reduced.T @ turning.coriolis @ reduced
-    size = len(problem.blade.frequencies)
-    system = np.block([[np.zeros((size, size)), np.eye(size)], [-np.diag(problem.blade.frequencies**2), -coupling]])
-    first = np.concatenate([reduced.T @ turning.mass @ part for part in start])
-    expected = exponential(system, times(simulation, 1)[0], first)[:, :size] @ reduced.T
-    assert_close(record.snapshots @ (model.to_reduced @ problem.contact.state_shapes).T, expected, 1e-8)
-
-
-def test_with_the_coriolis_force_displacement_and_velocity_are_those_of_damped_modes(turning):
-    """A weaker and weaker force: the run without it. A strong damping, which displacement and velocity see."""
-    speed, scene, samples = 1600.0, replace(FAR, damping_ratio=0.2), []
-    start = slow_part(replace(turning, coriolis=None), speed, 4, np.random.default_rng(3))
-    for coriolis in (None, 1e-12 * turning.coriolis):
-        model = contact_model(replace(turning, coriolis=coriolis), "pressure_edge")
-        samples.append(whole_run(model, speed, scene, choice(EXACT_MODAL, 2e-7), motion(*start))[2].samples)
-    assert_close(samples[1], samples[0], 1e-9)
 
 
 @pytest.mark.parametrize("engine", ENGINES)

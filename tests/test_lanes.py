@@ -57,7 +57,7 @@ def test_a_product_and_its_sum_are_rounded_once(name):
 def test_a_program_leaves_no_rounding_to_the_compiler(monkeypatch):
     """No sum of it may be reordered or contracted, no quotient be made a product."""
     monkeypatch.setattr(program, "object_code", lambda assembly, *_: assembly)
-    plain = Kind(published=False, exact_gap=False, coriolis=False)
+    plain = Kind(published=False, exact_gap=False)
     words = program.compile_integration(capacity_of(1, 1), plain).split()
     assert words.count("fadd") > 10 and any(word.startswith("@llvm.fmuladd.v8f64") for word in words)
     assert not {"fast", "reassoc", "contract", "arcp", "afn", "nnan", "ninf", "nsz"}.intersection(words)
@@ -120,7 +120,7 @@ def test_choices_share_what_does_not_tell_them_apart():
 
 def test_the_steps_know_every_constant_of_a_kind_by_its_name():
     """A constant that no function names would tell programs apart that are the same."""
-    constants = Kind(published=True, exact_gap=True, coriolis=False).constants
+    constants = Kind(published=True, exact_gap=True).constants
     for name in constants:
         other = constants | {name: not constants[name]}
         assert specialised(steps.meet, constants) is not specialised(steps.meet, other), name

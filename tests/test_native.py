@@ -280,10 +280,9 @@ def test_constants_of_a_speed_begin_with_its_rows_of_modes():
 
 
 def test_kinds_are_few_and_told_apart():
-    """With central differences nothing is coupled by the Coriolis force: see Problem."""
     kinds = [Kind(*flags) for flags in product((True, False), repeat=len(Kind._fields))]
     assert len({repr((capacity_of(88, nodes), kind)) for kind in kinds for nodes in (8, 15)}) == 2 * len(kinds)
-    assert len([kind for kind in kinds if kind.published + kind.coriolis <= 1]) <= 6
+    assert len(kinds) <= 4
 
 
 def test_an_address_of_vectors_is_that_of_an_array_without_gaps_on_their_boundary():
@@ -330,23 +329,18 @@ def own_bits():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PROCESSORS)
 def test_programs_for_any_processor_give_the_same_bits(name, own_bits):
-    """However wide its vectors are, and however LLVM orders its instructions: a process compiles for it.
-
-    For the first everything, for the others all but the Coriolis force, in one program.
-    """
+    """However wide its vectors are, and however LLVM orders its instructions: a process compiles for it."""
     if name == native.this_processor()[0]:
         pytest.skip("another processor than the one that it is")
     missing = [feature for feature in PROCESSORS[name] if f"+{feature}" not in native.this_processor()[1].split(",")]
     if missing:
         pytest.skip(f"this processor has no {', '.join(missing)}, which {name} has")
-    coriolis = name == "x86-64-v3"
-    code = f"import json\nfrom integration_cases import bits_of_programs\nprint(json.dumps(bits_of_programs({coriolis})))"
+    code = "import json\nfrom integration_cases import bits_of_programs\nprint(json.dumps(bits_of_programs()))"
     environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent), "NUMBA_CPU_NAME": name}
 
     command = [sys.executable, "-c", code]
     printed = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment).stdout
-    found = json.loads(printed)
-    assert found and found == {run: own_bits[run] for run in found} and len(own_bits) - len(found) == (not coriolis)
+    assert json.loads(printed) == own_bits
 
 
 def test_only_own_leftovers_are_removed(tmp_path):

@@ -227,10 +227,6 @@ def test_rotating_has_the_modes_alone(reduced, displaced, steel):
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        (
-            {"structure": {"kinematics": "quadratic", "coriolis": True}},
-            "coriolis: true, which motions .* coriolis: false, which",
-        ),
         ({"structure": {"kinematics": "quadratic"}, "fidelity": "paper"}, "a level of exact_modal"),
         ({"structure": {"kinematics": "rotating"}, "exports": {"full_matrices": True}}, "kinematics: linear"),
         ({"structure": {"kinematics": "large"}}, "quadratic"),
@@ -243,5 +239,5 @@ def test_what_cannot_be_had_is_refused(root, changes, said):
 
 
 def test_the_blade_whose_own_kinematics_cannot_be_had_is_named(with_blades):
-    with pytest.raises(ConfigError, match=r"blades\.yaml:\d+: Own\.kinematics: found quadratic with str.*: true"):
-        with_blades("Own: { base: Ref, kinematics: quadratic }", blades=["Ref", "Own"], structure={"coriolis": True})
+    with pytest.raises(ConfigError, match=r"blades\.yaml:\d+: Own\.kinematics: found quadratic at the level 'paper'"):
+        with_blades("Own: { base: Ref, kinematics: quadratic }", blades=["Ref", "Own"], fidelity="paper")

@@ -259,9 +259,7 @@ def test_contact_model(model, contact, tmp_path):
     write_contact_model(contact, tmp_path / "contact.npz")
     again = read_contact_model(tmp_path / "contact.npz")
     np.testing.assert_array_equal(again.displacement_operator, contact.displacement_operator)
-    assert again.tip_cone_angle == contact.tip_cone_angle and again.coriolis is None
-    write_contact_model(replace(contact, coriolis=modes), tmp_path / "contact.npz")
-    np.testing.assert_array_equal(read_contact_model(tmp_path / "contact.npz").coriolis, modes)
+    assert again.tip_cone_angle == contact.tip_cone_angle
 
 
 def test_the_tip_is_the_line_wherever_its_contact_nodes_lie(model, contact):

@@ -46,10 +46,9 @@ def measured(root: Path) -> Numbers:
     mesh = generate_mesh(blade.definition.build(round_edges=True), **_MESH)
     matrices, boundary = assemble(mesh, blade.material), settings.boundary_choice(_BLADE)
     reduction, regions = settings.reduction_choice(_BLADE), settings.stress_regions(_BLADE)
-    with_coriolis = reduce_blade(mesh, matrices, blade.material, boundary, replace(reduction, coriolis=True), regions)
+    model = reduce_blade(mesh, matrices, blade.material, boundary, reduction, regions)
     patched = reduce_blade(mesh, matrices, blade.material, replace(boundary, contact=PATCHES), reduction, regions)
-    model = replace(with_coriolis, coriolis=None)
-    contact, coriolis, patches = (contact_model(each, tip_line) for each in (model, with_coriolis, patched))
+    contact, patches = (contact_model(each, tip_line) for each in (model, patched))
 
     def run(of: ContactModel, name: str, speed: float = _SPEED, results=(), stress=None, **changes) -> dict[str, float]:
         quiet = {"snapshot_revolutions": 2 if stress else 0, "revolutions": _REVOLUTIONS}
@@ -64,7 +63,6 @@ def measured(root: Path) -> Numbers:
         "central_difference": run(contact, "abradable", integrator=CENTRAL_DIFFERENCE, time_step=4e-7),
         "stress": run(contact, "abradable", results=["stress"], stress={BOX: box_operator(model, blade.material)}),
         "patches": run(patches, "direct", **_DIRECT),
-        "coriolis": run(coriolis, "abradable"),
         "clearance": run(contact, "growing_abradable"),
         "ring": run(contact, "elastic_abradable", results=["casing"]),
     }

@@ -70,7 +70,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Item:
-    """A step of the evidence: its function, as `evidence.coriolis.peaks`, the files that it makes and reads, and parameters.
+    """A step of the evidence: its function, as `evidence.clearance.peaks`, the files that it makes and reads, and parameters.
 
     `alone`: with nothing beside it, on all cores. `priority`: as of a run. `sources`: files of the repository that it is made
     from, which count by their content. `program`: one that it needs and that pip does not install.

@@ -46,7 +46,6 @@ def test_every_key_says_what_it_is(rows):
         ("config", "structure.boundary.nodes", "integer 1..200"),
         ("config", "speeds[].start", "required; 0.001..1e+06 rad/s"),
         ("config", "speeds_for[].speeds", "list: 0.001..1e+06 rad/s; or section"),
-        ("config", "structure.coriolis", "`false`; true, false"),
         ("config", "signals.gauges.NAME.angle_deg", "`0`; -180..180 degrees"),
         ("config", "signals.probes_deg", "`[]`; list or []: at least 0, below 360 degrees"),
         ("config", "blades", "required; all; or list: name"),

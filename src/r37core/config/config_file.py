@@ -43,7 +43,6 @@ class StructureSection(Section):
     kinematics: Kinematics | LeftOut = left_out("Kinematics of all blades, in place of `kinematics` in blades.yaml")
     quadratic_modes: Any = DECLARED
     spin_softening: Any = DECLARED
-    coriolis: Any = DECLARED
     stress_regions: ByName[RegionSection | None] = Field(
         default=_SHIPPED_REGIONS, description="Regions of the stress; the first decides, null leaves one out of every blade"
     )

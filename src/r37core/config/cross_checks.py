@@ -120,14 +120,10 @@ def _most_nodes(settings: Settings) -> int:
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
     blades = [name for name, blade in settings.blades.items() if blade.is_matrices]
-    remedies = {
-        "spin_softening": "put the term into its K_<speed>",
-        "coriolis": "a Coriolis matrix of another program is not read",
-    }
-    for key, remedy in remedies.items():
-        if blades and getattr(settings.structure, key):
-            value = f"true with the blade '{blades[0]}', given by matrices"
-            raise settings.documents.config.refusal(("structure", key), value, f"false; {remedy}")
+    if blades and settings.structure.spin_softening:
+        value = f"true with the blade '{blades[0]}', given by matrices"
+        allowed = "false; put the term into its K_<speed>"
+        raise settings.documents.config.refusal(("structure", "spin_softening"), value, allowed)
 
 
 def kinematics_can_be_had(settings: Settings) -> None:
@@ -145,10 +141,6 @@ def kinematics_can_be_had(settings: Settings) -> None:
     if structure.kinematics is None:
         # the entry that says so, or that leaves it out
         document, key = settings.designs.document, (quadratic[0], "kinematics")
-    if structure.coriolis:
-        without = "structure.coriolis: true, which motions that follow a large one at once do not have"
-        costs = "coriolis: false, which moves the benchmark's peaks by 6 rad/s at most (docs/coriolis.md)"
-        raise document.refusal(key, f"{value} with {without}", f"{LINEAR} or {ROTATING}, or {costs}")
     integrator = settings.fidelity.time_integration.integrator
     if integrator != EXACT_MODAL:
         level = f"the level '{settings.fidelity_name}', whose integrator {integrator} does not carry it"
@@ -170,19 +162,6 @@ def tips_have_room_for_patches(settings: Settings) -> None:
                 contact_positions(boundary, np.linspace(0.0, 1.0, nodes), f"mesh nodes of the tip line '{tip_line}'")
             except BoundaryError as error:
                 raise document.error(("structure", "boundary", "nodes"), f"blade '{name}': {error} (tip_elements)") from None
-
-
-def coriolis_can_be_carried(settings: Settings) -> None:
-    """The Coriolis force is wanted with the integrator that carries it, and of runs at constant speed."""
-    if not settings.structure.coriolis:
-        return
-    integrator = settings.fidelity.time_integration.integrator
-    if integrator != EXACT_MODAL:
-        raise settings.documents.config.refusal(
-            ("structure", "coriolis"),
-            f"true at the level '{settings.fidelity_name}', whose integrator {integrator} does not carry the Coriolis force",
-            f"false, or {_exact_level(settings)}",
-        )
 
 
 def _exact_level(settings: Settings) -> str:
@@ -234,7 +213,6 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     matrices_hold_their_terms,
     kinematics_can_be_had,
     tips_have_room_for_patches,
-    coriolis_can_be_carried,
     rotors_press_a_casing_that_is_carried,
     rotors_end_together,
     clearances_reach_all_speeds,

@@ -54,7 +54,7 @@ def mode_shapes(model: ReducedModel, speed: float, count: int) -> tuple[tuple[st
     basis = _whole(model).basis
     frequencies, shapes = model.modes(speed, max(count, _NAMED_AMONG))
     names, order = name_modes(model, shapes, count)
-    displacement = np.array([(basis @ shapes[:, mode]).real for mode in order])
+    displacement = np.array([basis @ shapes[:, mode] for mode in order])
     return names, frequencies[order] / (2.0 * np.pi), displacement
 
 

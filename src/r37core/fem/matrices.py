@@ -18,7 +18,6 @@ from .solver import Solve, factorise
 from .stress import stress_at
 
 _SPIN_PLANE = np.diag([1.0, 1.0, 0.0])
-_SPIN_CROSS = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
 
 
 @dataclass(frozen=True)
@@ -64,10 +63,6 @@ class StructuralMatrices:
     def spin_softening(self) -> sp.csr_array:
         """Spin softening per Omega^2 (kg): minus the mass of the motion normal to the axis; added to the stiffness."""
         return self._free(-self.mass_pairs, _SPIN_PLANE)
-
-    def coriolis(self) -> sp.csr_array:
-        """Coriolis matrix per Omega (kg), skew-symmetric: 2 Omega z x velocity, for rotation towards negative theta."""
-        return self._free(-2.0 * self.mass_pairs, _SPIN_CROSS)
 
     @cached_property
     def _free_pairs(self) -> sp.csr_array:

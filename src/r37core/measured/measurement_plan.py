@@ -68,8 +68,8 @@ class Measured:
             if (name := getattr(entry, key)) not in known:
                 raise refusal(key, f"'{name}'", f"one that is run ({', '.join(known)})")
         scene, gauge = settings.scenes[entry.scene].scene, entry.gauge
-        if scene.rotor or settings.structure.coriolis:
-            raise refusal("scene", f"'{entry.scene}', a rotor or with Coriolis forces", "a scene of one blade")
+        if scene.rotor:
+            raise refusal("scene", f"'{entry.scene}', a rotor", "a scene of one blade")
         if entry.quantity == WORN_DEPTH and scene.lining is None:
             raise refusal("quantity", f"{WORN_DEPTH} in '{entry.scene}', without lining", "a scene with one")
         if isinstance(gauge, str):

@@ -74,8 +74,6 @@ class Judged:
     def not_looked(self) -> dict[str, str]:
         """Reason why no further runs of a scene are done, where that is so."""
         settings = self.sweep.settings
-        if settings.structure.coriolis:
-            return dict.fromkeys(settings.scenes, "no further runs with Coriolis forces")
         reasons = {name: "no further runs of a rotor" for name, chosen in settings.scenes.items() if chosen.scene.rotor}
         changing = "the clearance changes within a run, of which the later revolutions alone are judged"
         reasons |= {name: changing for name, chosen in settings.scenes.items() if chosen.scene.casing.change}

@@ -59,8 +59,8 @@ def crossing_speed(speeds: np.ndarray, frequency: np.ndarray, order: int) -> flo
 
 def modal_assurance(first: np.ndarray, second: np.ndarray, mass: np.ndarray) -> np.ndarray:
     """Mass-weighted modal assurance criterion between two sets of shapes (columns), shape (first, second)."""
-    product = np.abs(first.conj().T @ mass @ second) ** 2
-    norms = [np.einsum("ik,ij,jk->k", shapes.conj(), mass, shapes).real for shapes in (first, second)]
+    product = (first.T @ mass @ second) ** 2
+    norms = [np.einsum("ik,ij,jk->k", shapes, mass, shapes) for shapes in (first, second)]
     return product / norms[0][:, None] / norms[1]
 
 
@@ -93,8 +93,8 @@ def name_modes(model: ReducedModel, shapes: np.ndarray, count: int) -> tuple[tup
 
     The three names go to the modes with the largest MAC against the ideal shapes; the others follow by frequency.
     """
-    norms = np.einsum("ik,ij,jk->k", shapes.conj(), model.mass, shapes).real
-    assurance = np.abs(model.shape_products @ shapes) ** 2 / model.shape_norms[:, None] ** 2 / norms
+    norms = np.einsum("ik,ij,jk->k", shapes, model.mass, shapes)
+    assurance = (model.shape_products @ shapes) ** 2 / model.shape_norms[:, None] ** 2 / norms
     _, named = linear_sum_assignment(-assurance)
     others = [rank for rank in range(shapes.shape[1]) if rank not in set(named.tolist())]
     order = np.array([*named, *others])[:count]
@@ -113,7 +113,7 @@ def dynamic_clearance(
     """
     line = model.tip_lines[tip_line]
     leading_edge = line.select([0])
-    displacement = np.moveaxis(leading_edge.basis @ shapes.real, 2, 0)
+    displacement = np.moveaxis(leading_edge.basis @ shapes, 2, 0)
     radial, tangential, axial = leading_edge.cylindrical(displacement)[:, 0].T[:, :, None]
     scale = tangential_displacement / tangential
     radius = np.hypot(*leading_edge.points[0, :2])

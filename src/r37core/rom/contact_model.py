@@ -3,8 +3,7 @@
 Light: the simulation jobs import it.
 
 In the modes at rest the mass is the identity and the stiffness at speed Omega is diag(frequencies^2) + Omega^2 K1, so a
-speed's own modes follow from a plain symmetric eigenproblem, without loss of digits and without SciPy. Those that the Coriolis
-force couples: r37core.time_integration.gyroscopic.
+speed's own modes follow from a plain symmetric eigenproblem, without loss of digits and without SciPy.
 """
 
 from dataclasses import asdict, dataclass, fields, replace
@@ -36,7 +35,6 @@ class ContactModel:
     `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates. `rotation_shapes` (m s2/rad2),
     shape (3, nodes, shapes), and `rotation_stiffening` (s2/rad2), shape (shapes,): what rotation does to the contact nodes, in
     the same directions; see r37core.rom.rotation.
-    `coriolis` (rad^-1), shape (modes, modes): skew-symmetric, force per velocity and Omega, or None to leave it out.
     `edge_displacement_operator`, `edge_radius`, `edge_theta`, `edge_rotation_shapes`: the same of all known nodes of the tip
     line, between the contact nodes, too; None where the contact nodes are all that is known of it.
     """
@@ -52,7 +50,6 @@ class ContactModel:
     to_reduced: np.ndarray
     rotation_shapes: np.ndarray
     rotation_stiffening: np.ndarray
-    coriolis: np.ndarray | None = None
     logarithmic_stiffness: LogarithmicStiffness | None = None
     quadratic: QuadraticTerms | None = None
     edge_displacement_operator: np.ndarray | None = None

@@ -61,7 +61,6 @@ def reduce_blade(
     return ReducedModel(
         **stiffness,
         mass=reduced_mass,
-        coriolis=vectors.T @ (matrices.coriolis() @ vectors) if reduction.coriolis else None,
         contact=boundary.contact,
         contact_nodes=contact.nodes(RecoveryNodes(np.arange(len(mesh.points)), mesh.points, whole, rotated)),
         contact_chord=contact.mean_chord,

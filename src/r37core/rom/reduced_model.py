@@ -10,11 +10,7 @@ from .craig_bampton import symmetric
 from .logarithmic_stiffness import LogarithmicStiffness
 from .quadratic_terms import QuadraticTerms
 from .recovery_nodes import RecoveryNodes
-from .rotation import BucklingError
 from .stress_region import StressRegion
-
-CORIOLIS_TERM = "M x'' + Omega G x' + K(Omega) x = f, for Omega > 0 and a rotor that turns towards negative theta, about -z"
-"""Place of a Coriolis matrix G per speed, written into files."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +18,7 @@ class ReducedModel:
     """Reduced matrices and recovery data; coordinates 0 to 3 n_c - 1 are the contact nodes' displacements (x y z of each).
 
     `stiffness` (N/m), `geometric_stiffness` (per Omega^2), `mass` (kg), and, only when asked for, `spin_softening` (per
-    Omega^2) and `coriolis` (see CORIOLIS_TERM): each of shape (coordinates, coordinates). `contact`: what contact acts on (see
+    Omega^2): each of shape (coordinates, coordinates). `contact`: what contact acts on (see
     r37core.rom.contact_weights); `contact_nodes`: mean displacements there, with the number of the nearest node of the tip
     line; `contact_chord`: their chord fractions; `contact_tip_lengths` (m): see r37core.rom.contact_weights. `tip_lines`:
     recovery along each tip line; `stress_regions` by name, the first of which decides; `whole_blade` only on request.
@@ -38,7 +34,6 @@ class ReducedModel:
     geometric_stiffness: np.ndarray
     mass: np.ndarray
     spin_softening: np.ndarray | None = None
-    coriolis: np.ndarray | None = None
     contact: str
     contact_nodes: RecoveryNodes
     contact_chord: np.ndarray
@@ -78,44 +73,18 @@ class ReducedModel:
     def modes(self, speed: float, count: int | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Lowest angular frequencies (rad/s), ascending, and mode shapes, shape (coordinates, modes), at `speed`.
 
-        Shapes are mass-normalised; complex when the model has a Coriolis matrix. Frequencies below zero stiffness are
-        given as negative numbers (a blade that buckles under rotation).
+        Shapes are mass-normalised. Frequencies below zero stiffness are given as negative numbers (a blade that buckles under
+        rotation).
         """
         squares, shapes = la.eigh(self.stiffness_at(speed), self.mass)
-        if self.coriolis is not None and speed != 0.0:
-            return _gyroscopic_modes(squares, shapes, speed * self.coriolis, count, speed)
         frequencies = np.sign(squares) * np.sqrt(np.abs(squares))
         return frequencies[:count], shapes[:, :count]
-
-
-def _gyroscopic_modes(
-    squares: np.ndarray, shapes: np.ndarray, gyroscopic: np.ndarray, count: int | None, speed: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Modes of q'' + g q' + diag(squares) q = 0 in modal coordinates q, with g skew-symmetric.
-
-    With y = (sqrt(squares) q, q') the system is y' = A y, A real and skew-symmetric, so -i A is Hermitian and its
-    eigenvalues are the angular frequencies w of motions exp(i w t), without the loss of digits of a general eigensolver.
-    """
-    if squares[0] <= 0.0:
-        raise BucklingError(speed)
-    root = np.sqrt(squares)
-    coupling = shapes.T @ gyroscopic @ shapes
-    size = len(root)
-    system = np.zeros((2 * size, 2 * size))
-    system[:size, size:] = np.diag(root)
-    system[size:, :size] = -np.diag(root)
-    system[size:, size:] = -0.5 * (coupling - coupling.T)
-    values, vectors = la.eigh(-1j * system)
-    positive = np.flatnonzero(values > 0.0)[:count]
-    modal = vectors[:size, positive] / root[:, None]
-    return values[positive], shapes @ modal / np.sqrt(np.sum(np.abs(modal) ** 2, axis=0))
 
 
 def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
     """The contact model of a reduced model whose contact nodes lie on `tip_line`."""
     frequencies, modes = model.modes(0.0)
     logarithmic, quadratic = model.logarithmic_stiffness, model.quadratic
-    coriolis = None if model.coriolis is None else modes.T @ model.coriolis @ modes
     line, nodes = model.tip_lines[tip_line], model.contact_nodes
     ends = line.select([0, -1])
     return ContactModel(
@@ -129,7 +98,6 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
         tip_displacement_operator=_cylindrical_parts(ends, ends.basis @ modes),
         to_reduced=modes,
         rotation_stiffening=model.rotation_stiffening,
-        coriolis=None if coriolis is None else 0.5 * (coriolis - coriolis.T),
         **{f"edge_{name}": field for name, field in _node_fields(line, modes).items()},
     )
 

@@ -157,5 +157,4 @@ class ReductionChoice:
         int, Key("Number of modes with displacements of second order, from the lowest on", ge=1, le=MOST_QUADRATIC_MODES)
     ] = 4
     spin_softening: Annotated[bool, Key("Whether centrifugal forces follow the motion, which lowers the stiffness")] = False
-    coriolis: Annotated[bool, Key("Whether Coriolis forces act; simulations then need exact_modal")] = False
     recover_whole_blade: Annotated[bool, Key("Whether the basis is kept on every node (a large file)")] = False

@@ -13,7 +13,7 @@ from r37core.base.io import readable
 from .logarithmic_stiffness import LogarithmicStiffness
 from .quadratic_terms import QuadraticTerms
 from .recovery_nodes import RecoveryNodes
-from .reduced_model import CORIOLIS_TERM, ReducedModel
+from .reduced_model import ReducedModel
 from .stress_region import StressRegion
 
 _SQUARE = ("row", "column")
@@ -22,7 +22,6 @@ _ARRAYS = {
     "geometric_stiffness": (_SQUARE, "N m-1 s2 rad-2", "reduced geometric stiffness per squared speed"),
     "mass": (_SQUARE, "kg", "reduced mass"),
     "spin_softening": (_SQUARE, "kg", "reduced spin softening per squared speed"),
-    "coriolis": (_SQUARE, "kg", f"reduced Coriolis matrix G per speed, skew-symmetric: {CORIOLIS_TERM}"),
     "contact_chord": (("contact_node",), "1", "chord fraction of the contact nodes"),
     "contact_tip_lengths": (("contact_node",), "m", "length of tip along the casing's meridian of each contact node"),
     "shape_products": (("shape", "column"), "kg1/2", "mass product with ideal shapes"),

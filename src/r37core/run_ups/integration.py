@@ -51,16 +51,13 @@ class RunUpIntegration:
     `energy` (J): of the stepped modes; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
     Both are those of the last stage's end.
 
-    Raises what Problem raises at either end, with the steps of the lower speed, which are the longest; ValueError for a model
-    with a Coriolis matrix: complex modes turn into each other as the speed changes.
+    Raises what Problem raises at either end, with the steps of the lower speed, which are the longest.
     """
 
     simulation_class: ClassVar[type[Simulation]] = Simulation
     """Class of the simulation of each interval."""
 
     def __init__(self, model: ContactModel, scene: Scene, choice: IntegrationChoice, run_up: RunUp):
-        if model.coriolis is not None:
-            raise ValueError("run-ups do not carry the Coriolis force")
         low, high = sorted((run_up.start, run_up.stop))
         check_room(model, scene, np.array([low, *scene.casing.growth_speeds, high]).clip(low, high))
         coarsest = resolved_problem(model, low, scene, choice)

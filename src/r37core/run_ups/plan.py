@@ -126,9 +126,6 @@ def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
         raise document.error((*path, entry.key_of_length), str(error)) from None
     if entry.crossing:
         engine_order_is_known(settings, (*path, "crossing", "engine_order"), entry.crossing.engine_order)
-    if settings.structure.coriolis:
-        allowed = "none; run-ups do not carry the Coriolis force yet"
-        raise document.refusal(path, "a run-up with structure.coriolis: true", allowed)
     for scene in scenes_named(settings, entry.scenes):
         if entry.lining == "worn" and settings.scene_designs.entries[scene].lining is None:
             lining = f"worn in the scene '{scene}', which has no lining"

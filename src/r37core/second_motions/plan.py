@@ -71,7 +71,7 @@ MOST_SPEEDS = 20_000
 
 
 def can_be_swept(settings: Settings) -> None:
-    """Blades and scenes are there, without rotor or Coriolis force, and the speeds within the model's and not too many."""
+    """Blades and scenes are there, without rotor, and the speeds within the model's and not too many."""
     section, path = settings.section(SECTION), ("second_motions",)
     if not section.asked:
         return
@@ -89,8 +89,6 @@ def _refusals(settings: Settings, section: SecondMotionSection) -> Iterator[tupl
     """Key, value and allowed values of what cannot be swept."""
     sweep, highest = section.sweep(), settings.structure.maximum_speed_rad_s
     (first_key, last_key), scenes = section.end_keys, settings.scene_designs.entries
-    if settings.structure.coriolis:
-        yield (), "sweeps with structure.coriolis: true", "none; they do not carry the Coriolis force yet"
     for scene in [] if section.scenes == "all" else scenes_named(settings, section.scenes):
         if scenes[scene].rotor is not None:
             yield ("scenes",), f"'{scene}', which has a rotor", "scenes of a single blade"

@@ -8,7 +8,6 @@ import numpy as np
 from r37core.contact.casing import casing_axes
 
 from .casing_of_run import CasingOfRun
-from .gyroscopic import ComplexRecursion
 from .integrators import Recursion, joined, recursion
 from .quadratic_motion import QuadraticMotion
 from .stepped_blade import SteppedBlade
@@ -33,25 +32,16 @@ class ContactOperators:
 
     @cached_property
     def recursion(self) -> Recursion:
-        """Recursion of all modes: a complex one in the real part of its amplitude, the casing's without turning."""
-        own = self.blade.recursion
-        if self.casing.ring is not None:
-            ring, grid = self.casing.ring, self.blade.grid
-            ring_part = recursion(grid.choice.integrator, ring.frequencies, ring.damping_ratios, grid.time_step)
-            own = joined(own, ring_part)
-        return own if self.blade.complex_modes is None else ComplexRecursion(own.keep, own.pull, own.inverse, own.lost)
+        """Recursion of all modes, the casing's without turning."""
+        own, ring, grid = self.blade.recursion, self.casing.ring, self.blade.grid
+        if ring is None:
+            return own
+        return joined(own, recursion(grid.choice.integrator, ring.frequencies, ring.damping_ratios, grid.time_step))
 
     @cached_property
-    def _shapes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement in the modes at rest per u and per d of all modes; no column of the second without Coriolis.
-
-        The casing's move no mode of the blade.
-        """
-        none = np.zeros((len(self.blade.modes), len(self._ring_rows[0, 0])))
-        if self.blade.complex_modes is None:
-            return np.hstack([self.blade.modes, none]), np.empty((len(self.blade.modes), 0))
-        u_factor, d_factor = self.blade.complex_modes.real_shapes(self.blade.recursion)
-        return np.hstack([self.blade.modes @ u_factor, none]), np.hstack([self.blade.modes @ d_factor, none])
+    def _shapes(self) -> np.ndarray:
+        """Displacement in the modes at rest per displacement of all modes. The casing's move no mode of the blade."""
+        return np.hstack([self.blade.modes, np.zeros((len(self.blade.modes), len(self._ring_rows[0, 0])))])
 
     @cached_property
     def _ring_rows(self) -> np.ndarray:
@@ -69,32 +59,17 @@ class ContactOperators:
     def displacement_operator(self) -> np.ndarray:
         """Displacement of the contact nodes along the casing's normal, tangent and meridian, shape (3, nodes, modes).
 
-        Per displacement u of all modes; a coupled one's increment d moves the nodes by `increment_operator`, too. It is that
-        relative to the casing, whose modes count against it.
+        Per displacement u of all modes. It is that relative to the casing, whose modes count against it.
         """
-        operator = self.operator_at_rest @ self._shapes[0]
+        operator = self.operator_at_rest @ self._shapes
         if self.casing.ring is not None:
             operator[..., len(self.blade.frequencies) :] = self._ring_rows
         return operator
 
-    @cached_property
-    def increment_operator(self) -> np.ndarray:
-        """Displacement of the contact nodes per increment d, shape (3, nodes, modes); no column without Coriolis."""
-        return self.operator_at_rest @ self._shapes[1]
-
-    @cached_property
-    def complex_operator(self) -> np.ndarray | None:
-        """Displacement of the contact nodes per complex amplitude, shape (3, nodes, modes)."""
-        if self.blade.complex_modes is None:
-            return None
-        blade = self.operator_at_rest @ self.blade.modes @ self.blade.complex_modes.shapes
-        return np.concatenate([blade, self._ring_rows], axis=-1)
-
     @property
     def size_operator(self) -> np.ndarray:
         """Largest displacement of the nodes per amplitude of each mode alone, in the shape of `displacement_operator`."""
-        operator = self.displacement_operator if self.complex_operator is None else self.complex_operator
-        sizes = np.abs(operator)
+        sizes = np.abs(self.displacement_operator)
         if self.casing.ring is not None:
             # a pair turns into each other
             blade = len(self.blade.frequencies)
@@ -106,16 +81,14 @@ class ContactOperators:
     def static_shapes(self) -> np.ndarray:
         """Displacement that follows forces on the contact nodes at once, shape (modes at rest, 3 nodes).
 
-        That of the modes that are not stepped, of forces in the directions of `displacement_operator`: see static_modes. With
-        Coriolis also half of the kick by which a force at t_n acts on the stepped modes. No column where the forces are not
-        those at t_n.
+        That of the modes that are not stepped, of forces in the directions of `displacement_operator`: see static_modes. No
+        column where the forces are not those at t_n.
         """
         if not self.blade.grid.choice.second_order:
             return np.empty((len(self.blade.modes), 0))
         frequencies, modes = self.blade.static_modes
         rows = (self.operator_at_rest @ modes).reshape(3 * len(self.casing.tip.radius), len(frequencies))
-        residual = (modes / frequencies**2) @ rows.T
-        return residual if self.blade.complex_modes is None else residual + self._half_kick
+        return (modes / frequencies**2) @ rows.T
 
     @cached_property
     def product_shapes(self) -> np.ndarray:
@@ -161,21 +134,12 @@ class ContactOperators:
         return 0.5 * float(modal_forces @ modal_forces)
 
     @property
-    def _half_kick(self) -> np.ndarray:
-        """Half of what a kick moves the stepped modes by, in the shape of `static_shapes`; see ComplexRecursion."""
-        u_factor, d_factor = self._shapes
-        size = 0.5 * self.recursion.inverse / self.recursion.keep
-        operators = self.displacement_operator, self.increment_operator
-        rows, increment_rows = (operator.reshape(-1, len(size)) for operator in operators)
-        return (d_factor * size) @ rows.T - (u_factor * size) @ increment_rows.T
-
-    @property
     def state_shapes(self) -> np.ndarray:
         """Displacement in the modes at rest per number of a snapshot.
 
-        They are the stepped modes' u, with Coriolis their d, products of second order, then the contact forces (N).
+        They are the stepped modes' u, products of second order, then the contact forces (N).
         """
-        return np.hstack([*self._shapes, self.product_shapes, self.static_shapes])
+        return np.hstack([self._shapes, self.product_shapes, self.static_shapes])
 
     @cached_property
     def output_operator(self) -> np.ndarray:
@@ -197,7 +161,7 @@ class ContactOperators:
     def contact_flexibility(self) -> np.ndarray:
         """Normal displacement (m/N) of the last node by `static_shapes` per force on the first, along each direction.
 
-        Shape (3, nodes, nodes). That of the static modes; with Coriolis half of a kick in it, which is skew-symmetric.
+        Shape (3, nodes, nodes). That of the static modes.
         """
         nodes = len(self.casing.tip.radius)
         if not self.static_shapes.size:

@@ -91,19 +91,15 @@ class InitialMotion:
         if self.displacement is not None:
             _check_room(problem, displacement, state)
         blade = slice(len(displacement))
-        own, coupled, step = problem.blade.frequencies, problem.blade.complex_modes, problem.grid.time_step
-        if coupled is not None:
-            ratio = problem.scene.damping(coupled.frequencies, problem.speed)
-            u, d = coupled.begun(own, displacement, velocity, ratio, step)
-        else:
-            factors = increments(problem.choice.integrator, own, problem.scene.damping(own, problem.speed), step)
-            problem.contact.put_followers(displacement, velocity)
-            u, d = displacement, factors.displacement_factor * displacement + factors.velocity_factor * velocity
-            if problem.contact.quadratic is not None:
-                # forces kick at an instant, and the velocity is that in the middle of the kick
-                stepping = problem.blade.recursion
-                d = d - stepping.inverse * problem.contact.quadratic.force(displacement) / (1.0 + stepping.keep)
-        state.displacement[blade], state.increment[blade] = u, d
+        own, step = problem.blade.frequencies, problem.grid.time_step
+        factors = increments(problem.choice.integrator, own, problem.scene.damping(own, problem.speed), step)
+        problem.contact.put_followers(displacement, velocity)
+        increment = factors.displacement_factor * displacement + factors.velocity_factor * velocity
+        if problem.contact.quadratic is not None:
+            # forces kick at an instant, and the velocity is that in the middle of the kick
+            stepping = problem.blade.recursion
+            increment -= stepping.inverse * problem.contact.quadratic.force(displacement) / (1.0 + stepping.keep)
+        state.displacement[blade], state.increment[blade] = displacement, increment
 
 
 def _numbers(name: str, values: ArrayLike | None) -> np.ndarray | None:

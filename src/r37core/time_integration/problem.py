@@ -13,7 +13,6 @@ from .casing_of_run import CasingOfRun
 from .clearance import check_ring, check_room
 from .contact_operators import ContactOperators, EdgeOperators
 from .integration_choice import IntegrationChoice
-from .integrators import CENTRAL_DIFFERENCE
 from .step_checks import check_step
 from .step_limit import UnstableStepError
 from .stepped_blade import SteppedBlade
@@ -28,8 +27,8 @@ class Problem:
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of pressed
     nodes; TooFewStaticModesError where the contact forces would not be unique; LongRevolutionError for a revolution of too
-    many steps; NoRoomError for a tip inside of the casing, and for a ring far from it; ValueError for a Coriolis matrix with
-    central differences, and an elastic casing with the exact gap.
+    many steps; NoRoomError for a tip inside of the casing, and for a ring far from it; ValueError for an elastic casing with
+    the exact gap.
     """
 
     model: ContactModel
@@ -38,8 +37,6 @@ class Problem:
     choice: IntegrationChoice
 
     def __post_init__(self) -> None:
-        if self.model.coriolis is not None and self.choice.integrator == CENTRAL_DIFFERENCE:
-            raise ValueError("central differences do not carry the Coriolis force; use the integrator exact_modal")
         if self.scene.casing.ring and self.scene.exact_gap:
             raise ValueError("an elastic casing needs the linear gap: the exact one is that of a casing which keeps its shape")
         self.grid.check_table(padded(len(self.model.theta)))

@@ -57,8 +57,7 @@ def run_speed(
     energies; the spectrum of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade,
     see RotorRun. `status` is that of the rotor: all blades end when one diverges, whose snapshots are
     kept then. With `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the
-    energies `initial_energy` (J). Of a single blade without
-    Coriolis force also its motion as it ends, without the wear: CarriedMotion.
+    energies `initial_energy` (J). Of a single blade also its motion as it ends, without the wear: CarriedMotion.
     Raises what Problem raises, and InitialMotionError.
     """
     simulation = simulation_of(model, speed, scene, choice)
@@ -120,7 +119,7 @@ def numbers_of_run(
         numbers["share_of_height_limit"] = np.array(model.quadratic.share_within(PATH_ERROR * scene.casing.clearance))
     numbers |= kept_numbers.limit_numbers(run, totals)
     numbers |= ending_numbers(run, samples)
-    if scene.rotor is None and model.coriolis is None:
+    if scene.rotor is None:
         numbers |= CarriedMotion.ended(problem, run.states[0]).arrays
     if scene.casing.changes_with_speed:
         numbers["clearance"] = np.min([each.casing.clearance for each in run.problems], axis=0) + least_change(scene.casing)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from .contact_operators import ContactOperators
-from .integrators import CENTRAL_DIFFERENCE, Recursion
+from .integrators import CENTRAL_DIFFERENCE
 from .step_limit import UnstableStepError, largest_pressed_ratio, ratio_of_pressed_nodes
 
 
@@ -67,16 +67,8 @@ def predicted_ratio(contact: ContactOperators) -> float:
 
 
 def pressed_ratio(contact: ContactOperators) -> float:
-    """Ratio of the step to its limit while all nodes are pressed on the casing: see ratio_of_pressed_nodes.
-
-    A coupled mode counts as two, with the real and the imaginary part of its shape: the limit is where a motion changes its
-    sign in every step, and there the two are not coupled.
-    """
-    stepping, normal, flexibility = contact.recursion, contact.displacement_operator[0], contact.contact_flexibility[0]
-    if contact.complex_operator is not None:
-        normal = np.hstack([contact.complex_operator[0].real, contact.complex_operator[0].imag])
-        stepping = Recursion(*(np.tile(part, 2) for part in (stepping.keep, stepping.pull, stepping.inverse, stepping.lost)))
-    return ratio_of_pressed_nodes(stepping, normal, flexibility)
+    """Ratio of the step to its limit while all nodes are pressed on the casing: see ratio_of_pressed_nodes."""
+    return ratio_of_pressed_nodes(contact.recursion, contact.displacement_operator[0], contact.contact_flexibility[0])
 
 
 def pressed_ratio_of_rotor(contacts: Sequence[ContactOperators]) -> float:
@@ -88,16 +80,12 @@ def pressed_ratio_of_rotor(contacts: Sequence[ContactOperators]) -> float:
     blades_part, keep, casing_part, between = 0.0, 1.0, 0.0, 0.0
     for contact in contacts:
         stepped, stepping = len(contact.blade.frequencies), contact.recursion
-        rows = contact.displacement_operator[0] if contact.complex_operator is None else contact.complex_operator[0]
-        pressed, shares = rows * np.sqrt(stepping.inverse), np.split(stepping.pull, [stepped])
+        pressed, shares = contact.displacement_operator[0] * np.sqrt(stepping.inverse), np.split(stepping.pull, [stepped])
         blade, casing = np.split(pressed, [stepped], axis=1)
-        pulls = shares[0]
-        if contact.complex_operator is not None:
-            blade, pulls = np.hstack([blade.real, blade.imag]), np.tile(pulls, 2)
-        casing, flexibility = casing.real, contact.contact_flexibility[0]
-        solved = np.linalg.solve(0.5 * (flexibility + flexibility.T), np.hstack([blade, casing]))
-        blade_solution, casing_solution = np.split(solved, [blade.shape[1]], axis=1)
-        blades_part = max(blades_part, float(np.linalg.eigvalsh(np.diag(pulls) + blade.T @ blade_solution)[-1]))
+        flexibility = contact.contact_flexibility[0]
+        solved = np.linalg.solve(0.5 * (flexibility + flexibility.T), pressed)
+        blade_solution, casing_solution = np.split(solved, [stepped], axis=1)
+        blades_part = max(blades_part, float(np.linalg.eigvalsh(np.diag(shares[0]) + blade.T @ blade_solution)[-1]))
         # the casing's own part once, not once per blade
         casing_part = casing_part + casing.T @ casing_solution + np.diag(shares[1]) / len(contacts)
         across = blade.T @ casing_solution

@@ -9,7 +9,6 @@ from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes
 from .integrators import Recursion, recursion
 from .static_modes import residual_flexibility, settles_at_once, stepped_modes
 from .step_limit import largest_pressed_ratio, ratio_of_pressed_nodes
@@ -34,8 +33,7 @@ class SteppedBlade:
 
     With the integrator exact_modal modes faster than `grid.choice.static_above` per step follow the forces statically: they
     are none of `frequencies` and `modes`; see r37core.time_integration.static_modes. With central differences all modes are
-    stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`). Of one with displacements of
-    second order followers are stepped behind the modes, see `followers`.
+    stepped. Of a model with displacements of second order followers are stepped behind the modes, see `followers`.
     """
 
     model: ContactModel
@@ -45,7 +43,7 @@ class SteppedBlade:
 
     @cached_property
     def frequencies(self) -> np.ndarray:
-        """Frequencies of the modes that are stepped (rad/s), ascending, without the Coriolis force; then those of followers."""
+        """Frequencies of the modes that are stepped (rad/s), ascending; then those of followers."""
         own = self._modes_of_speed[0][: self._stepped]
         followers = self.followers.shape[1]
         fastest = min(_TURN_OF_FOLLOWERS / self.grid.time_step, _FASTER * float(own[0]))
@@ -78,22 +76,6 @@ class SteppedBlade:
         squares, shapes = np.linalg.eigh(static @ static.T)
         kept = squares > _SMALLEST_FOLLOWER * max(squares.max(initial=0.0), np.finfo(float).tiny)
         return shapes[:, kept] * np.sqrt(squares[kept])
-
-    @cached_property
-    def gyroscopic_coupling(self) -> np.ndarray | None:
-        """Coupling of the stepped modes at the speed (rad/s), skew-symmetric, shape (modes, modes); None without Coriolis.
-
-        Modes that turn by more than LARGEST_TURN in a step are not coupled.
-        """
-        if self.model.coriolis is None:
-            return None
-        slow = self.frequencies * self.grid.time_step <= LARGEST_TURN
-        return np.where(np.outer(slow, slow), self.grid.speed * self.modes.T @ self.model.coriolis @ self.modes, 0.0)
-
-    @cached_property
-    def complex_modes(self) -> ComplexModes | None:
-        """Complex modes: the stepped modes as the Coriolis force couples them; None for a model without it."""
-        return None if self.gyroscopic_coupling is None else complex_modes(self.frequencies, self.gyroscopic_coupling)
 
     @cached_property
     def _stepped(self) -> int:
@@ -149,10 +131,8 @@ class SteppedBlade:
     @cached_property
     def recursion(self) -> Recursion:
         """Recursion of the stepped modes, without the casing's."""
-        coupled = self.complex_modes
-        frequencies = self.frequencies if coupled is None else coupled.frequencies
-        ratios = self.scene.damping(frequencies, self.grid.speed)
-        return recursion(self.grid.choice.integrator, frequencies, ratios, self.grid.time_step)
+        ratios = self.scene.damping(self.frequencies, self.grid.speed)
+        return recursion(self.grid.choice.integrator, self.frequencies, ratios, self.grid.time_step)
 
     @cached_property
     def static_modes(self) -> tuple[np.ndarray, np.ndarray]:

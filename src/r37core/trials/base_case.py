@@ -15,7 +15,6 @@ from r37core.config.fidelity import Level
 from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, left_out
 from r37core.config.settings import contact_nodes
 from r37core.plans.other_models import OWN_MESH, ModelChoice
-from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 from .case import Case
 
@@ -99,9 +98,6 @@ class BaseCase:
         settings, blade, entry = self.settings, self.blade, self.settings.levels[level or self.level]
         if lacking := self.lacking(changes):
             return lacking
-        integrator = changes.get("choice", {}).get("integrator", entry.time_integration.integrator)
-        if settings.structure.coriolis and integrator != EXACT_MODAL:
-            return f"{CENTRAL_DIFFERENCE} does not carry the Coriolis force"
         try:
             made = checked_scene(_changed(plain(settings.scene_designs.entries[scene]), changes.get("scene", {})))
         except ConfigError as error:

@@ -79,7 +79,7 @@ def import_matrices(
     With contact on points the contact nodes are those of the table; patches, as many as `boundary` says, are made of them.
     Raises ImportRefused for files that do not fit together, matrices that are not symmetric, and a stiffness that is not
     linear in the squared speed; BoundaryError for patches that the table has too few nodes for. Spin softening must be in the
-    stiffness already; a Coriolis matrix is not read.
+    stiffness already.
     """
     with blamed("matrices"):
         files = matrix_files(source.folder, Path(folder))

@@ -10,7 +10,7 @@ from r37core.contact.laws import displaced_position, lobe_shape
 from r37core.machine_code.alignment import LANES
 from r37core.machine_code.lanes import bits_of, inlined, integers_at, largest_of_lanes, load, numbers_at, spread, store
 
-from .layout import CORIOLIS, EXACT_GAP, MERIDIONAL, NORMAL, PUBLISHED, TANGENTIAL
+from .layout import EXACT_GAP, MERIDIONAL, NORMAL, PUBLISHED, TANGENTIAL
 from .steps import list_pressed, mode_lanes, node_lanes
 
 NEAR = 0.8
@@ -69,12 +69,7 @@ def _penetration(m, first, end, pressed, place, lobes):
 def _displaced(m, group, direction):
     """Displacement of eight nodes in a direction, by all modes."""
     e, modes = m.edge, mode_lanes(m)
-    rows = numbers_at(e.rows)
-    first_row = (direction * e.groups + group) * e.width * LANES
-    total = _along(rows, first_row, m.u, modes)
-    if CORIOLIS:
-        total += _along(rows, first_row + modes * LANES, m.increment, modes)
-    return total
+    return _along(numbers_at(e.rows), (direction * e.groups + group) * modes * LANES, m.u, modes)
 
 
 @inlined

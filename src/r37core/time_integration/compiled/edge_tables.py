@@ -40,19 +40,14 @@ class EdgeTables:
         lanes = padded(len(order))
         self._groups = lanes // LANES
         self._few = FEW // LANES if nodes > 2 * FEW else self._groups
-        operators = [edge.motion.displacement_operator]
-        if kind.coriolis:
-            operators.append(edge.motion.increment_operator)
         directions = slice(None) if kind.exact_gap else slice(1)
-        self._width = len(operators) * modes
-        self.rows = aligned_zeros((len(operators[0][directions]), self._groups, self._width, LANES))
-        for number, operator in enumerate(operators):
-            columns = np.zeros((*operator[directions, order].shape[:2], modes))
-            columns[..., lanes_of_modes.mode_columns] = operator[directions, order]
-            if number == 0:
-                columns[..., lanes_of_modes.product_columns] = edge.motion.product_operator[directions, order]
-            for direction, values in enumerate(columns):
-                self.rows[direction, :, number * modes : (number + 1) * modes] = _grouped(values, lanes)
+        operator = edge.motion.displacement_operator[directions, order]
+        columns = np.zeros((*operator.shape[:2], modes))
+        columns[..., lanes_of_modes.mode_columns] = operator
+        columns[..., lanes_of_modes.product_columns] = edge.motion.product_operator[directions, order]
+        self.rows = aligned_zeros((len(operator), self._groups, modes, LANES))
+        for direction, values in enumerate(columns):
+            self.rows[direction] = _grouped(values, lanes)
         self.flexibility = aligned_zeros((self._groups, 3 * capacity_nodes, LANES))
         if edge.flexibility.size:
             flexibility = edge.flexibility[order].reshape(len(order), 3, -1)
@@ -83,7 +78,7 @@ class EdgeTables:
 
     def put_into(self, record: np.void) -> None:
         """Put sizes and addresses into the record of the edge."""
-        record["few"], record["groups"], record["width"], record["near"] = self._few, self._groups, self._width, self._near
+        record["few"], record["groups"], record["near"] = self._few, self._groups, self._near
         for name in ("rows", "flexibility", "clearance"):
             record[name] = address_of(getattr(self, name))
         for name in ("radius", "theta", "table", "steps", "shares"):

@@ -148,15 +148,13 @@ class Passage:
         snapshots, out = self._snapshots, self._out.snapshots
         if snapshots is out:
             return
-        per_mode = engine.numbers_of_mode
-        numbers, kept = per_mode * modes, per_mode * len(state.displacement)
-        modal_numbers = snapshots[:, :numbers].reshape(len(snapshots), per_mode, modes)[:, :, columns]
-        out[:, :kept] = modal_numbers.reshape(len(snapshots), kept)
+        kept = len(state.displacement)
+        out[:, :kept] = snapshots[:, :modes][:, columns]
         products = snapshots[:, engine.product_columns]
         out[:, kept : kept + products.shape[1]] = products
         kept += products.shape[1]
         if self._grid.choice.second_order:
-            forces = snapshots[:, numbers:].reshape(len(snapshots), 3, (snapshots.shape[1] - numbers) // 3)
+            forces = snapshots[:, modes:].reshape(len(snapshots), 3, (snapshots.shape[1] - modes) // 3)
             out[:, kept:] = forces[:, :, :nodes].reshape(len(snapshots), 3 * nodes)
 
 
@@ -198,7 +196,7 @@ def _take_casing(engine: CompiledEngine, first: CompiledEngine) -> None:
     """Give an engine the constants of the casing's modes of another one, but for their loss."""
     own, other = engine.record[0]["speed"], first.record[0]["speed"]
     mine, theirs = engine.casing_lanes, first.casing_lanes
-    for name in ("keep", "pull", "inverse", "inverse_keep", "amplitude_by_u", "amplitude_by_d", "jumps"):
+    for name in ("keep", "pull", "inverse", "amplitude_by_u", "amplitude_by_d", "jumps"):
         own[name][..., mine] = other[name][..., theirs]
     own["loss"][mine] = 0.0
     own["jumps"][:, [LOSS_UU, LOSS_UD, LOSS_DD], mine] = 0.0

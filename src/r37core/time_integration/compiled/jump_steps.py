@@ -3,8 +3,8 @@
 Each mode is u_n = Re(C lambda^n) with |lambda| <= 1, so m steps are a 2 x 2 map of (u, d), made once
 (time_integration.jump_plan), and |C| bounds the mode until the next contact. A jump is taken only if a bound on every node's
 position over all the steps it skips stays clear of the casing's nearest position over them: modes slow in the jump follow
-their tangent within |C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|. A complex mode moves a node by up
-to |C| times the size of its shape there, and so do the casing's, which turn.
+their tangent within |C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|. The casing's modes, which turn, move a node
+by up to |C| times the size of their shape there.
 
 With the exact gap a node's position is at most n + cos(alpha) y^2/(2 R), and the lobes at its displaced angle at most
 their greatest slope times |y|/R nearer than at its undeformed one; n, y (sideways) and R (distance from the axis) are bounded.
@@ -16,8 +16,8 @@ from r37core.machine_code.alignment import LANES
 from r37core.machine_code.lanes import bits_of, inlined, load, numbers_at, store
 
 from ..jump_numbers import BEYOND, COARSE, D_FROM_D, D_FROM_U, LOSS_DD, LOSS_UD, LOSS_UU, STRIDES, U_FROM_D, U_FROM_U
-from .layout import CORIOLIS, EXACT_GAP, MERIDIONAL, NORMAL, TANGENTIAL
-from .steps import along, mode_lanes, node_lanes, second_difference
+from .layout import EXACT_GAP, MERIDIONAL, NORMAL, TANGENTIAL
+from .steps import along, mode_lanes, node_lanes
 
 ROUNDING_MARGIN = 1e-9
 """Relative margin of the distances compared, far above the rounding of their sums."""
@@ -55,9 +55,6 @@ def _is_clear(m, place, stride, remaining):
     for g in range(0, nodes, LANES):
         velocity = along(m.displacement_operator, NORMAL, m.increment, g, m.speed.slow_modes[stride])
         position = along(m.displacement_operator, NORMAL, m.u, g, m.speed.slow_modes[stride])
-        if CORIOLIS:
-            velocity += along(m.increment_operator, NORMAL, m.last_second_difference, g, m.speed.slow_modes[stride])
-            position += along(m.increment_operator, NORMAL, m.increment, g, m.speed.slow_modes[stride])
         position += np.maximum(velocity, velocity * length) + load(m.flight.reach, (stride, g))
         nearest = load(casing, place + g)
         for j in range(1, (length + COARSE - 1) // COARSE):
@@ -83,9 +80,6 @@ def _is_clear(m, place, stride, remaining):
 @inlined
 def choose_jump(m, place, first_stride, left, remaining):
     """Stride of the longest jump that the rest of the block and the bounds allow, -1 if there is none."""
-    if CORIOLIS:
-        for i in range(0, mode_lanes(m), LANES):
-            store(m.last_second_difference, i, second_difference(m, i))
     stride = 0 if left < COARSE else first_stride
     while m.flight.lengths[stride] > left:
         stride -= 1

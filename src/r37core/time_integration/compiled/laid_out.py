@@ -55,9 +55,8 @@ class LaidOutProblem:
         self.capacity = capacity_of(self.mode_lanes, self._node_lanes)
         if beside is not None:
             self.capacity = Capacity(*map(max, self.capacity, beside.capacity))
-        coriolis = problem.blade.complex_modes is not None
         follows_sliding = scene.friction is not None and scene.friction.vector
-        self.kind = kind = Kind(choice.integrator == CENTRAL_DIFFERENCE, scene.exact_gap, coriolis)
+        self.kind = kind = Kind(choice.integrator == CENTRAL_DIFFERENCE, scene.exact_gap)
         self._flags = {"lined": scene.lined, "quadratic": problem.contact.quadratic is not None}
         self._take_room(before)
         self._lay_out(problem)
@@ -106,8 +105,6 @@ class LaidOutProblem:
         if coupling is not None:
             fields["coupling"] = coupling
         modal_fields = {name: getattr(recursion, name) for name in ("keep", "pull", "inverse", "loss")}
-        if self.kind.coriolis:
-            modal_fields["inverse_keep"] = 1.0 / recursion.keep
         if increments is not None:
             modal_fields["increment_by_displacement"] = increments.displacement_factor
             modal_fields["increment_by_velocity"] = increments.velocity_factor
@@ -151,14 +148,9 @@ class LaidOutProblem:
         return lanes
 
     @property
-    def numbers_of_mode(self) -> int:
-        """Numbers of a mode in a snapshot: u and, with Coriolis, d."""
-        return 1 + self.kind.coriolis
-
-    @property
     def snapshot_width(self) -> int:
         """Numbers of a snapshot in whole vectors, the forces on the nodes after those of the modes."""
-        return self.numbers_of_mode * self.mode_lanes + (0 if self.kind.published else 3 * self._node_lanes)
+        return self.mode_lanes + (0 if self.kind.published else 3 * self._node_lanes)
 
     def _lay_out(self, problem: Problem) -> None:
         m = self.record[0]
@@ -186,11 +178,6 @@ class LaidOutProblem:
             steps_per_block=problem.grid.steps_per_sample,
             samples_per_snapshot=problem.grid.samples_per_snapshot,
         )
-        if self.kind.coriolis:
-            self.put_modes(
-                increment_operator=problem.contact.increment_operator,
-                increment_outputs=problem.contact.output_operator[None, :, self._modes : 2 * self._modes],
-            )
 
     def _lay_out_ring(self, ring: RingMotion, problem: Problem) -> None:
         lengths = jump_lengths(problem.grid.steps_per_sample) if problem.choice.jumps else np.empty(0)
@@ -248,8 +235,7 @@ class LaidOutProblem:
         m, columns, (functionals, modes) = self.record[0], self.product_columns, quadratic.rows.shape
         products = columns.stop - columns.start
         m["displacement_operator"][:, : self._nodes, columns] = problem.contact.product_operator
-        first = self.numbers_of_mode * self._modes
-        outputs = problem.contact.output_operator[:, first : first + products]
+        outputs = problem.contact.output_operator[:, self._modes : self._modes + products]
         m["outputs"][0, : len(outputs), columns] = outputs
         second = m["second"]
         second["rows"][0, :functionals, :modes] = quadratic.rows

@@ -22,12 +22,11 @@ class Kind(NamedTuple):
 
     What costs a run hardly anything where it is absent is a flag of the record instead: one program more takes longer to make
     than it saves. `published`: the integrator is central_difference, whose forces correct the prediction; else they are those
-    at t_n, see contact_steps. `exact_gap`: see Scene. `coriolis`: modes are complex, see r37core.time_integration.gyroscopic.
+    at t_n, see contact_steps. `exact_gap`: see Scene.
     """
 
     published: bool
     exact_gap: bool
-    coriolis: bool
 
     @property
     def constants(self) -> dict[str, bool]:
@@ -35,7 +34,7 @@ class Kind(NamedTuple):
         return {name.upper(): value for name, value in self._asdict().items()}
 
 
-PUBLISHED = EXACT_GAP = CORIOLIS = False
+PUBLISHED = EXACT_GAP = False
 """Placeholders of a kind's constants: each program has its own (r37core.machine_code.program_constants)."""
 
 NORMAL, TANGENTIAL, MERIDIONAL = range(3)
@@ -120,8 +119,8 @@ def contact_record(nodes: int) -> np.dtype:
 
 
 _MODAL_CONSTANTS = (
-    # of the recursion: see steps; energy lost per step and squared central difference; 1/keep
-    "keep pull inverse loss inverse_keep "
+    # of the recursion: see steps; energy lost per step and squared central difference
+    "keep pull inverse loss "
     # increment of a free mode per displacement and per velocity, and one over the latter
     "increment_by_displacement increment_by_velocity velocity_by_increment "
     # of jumps over free flight: see time_integration.jump_plan
@@ -177,11 +176,11 @@ def second_order_record(modes: int) -> np.dtype:
 
 EDGE = aligned_record(
     _fields("position shape meridional", LANES),  # of eight nodes
-    # groups of eight nodes: the few, and these with all of them; columns of a row of a group
-    _fields("few groups width", kind=np.int64),
+    # groups of eight nodes: the few, and these with all of them
+    _fields("few groups", kind=np.int64),
     # distance of a contact node to the casing behind a lining below which the edge is looked at
     _fields("near"),
-    # addresses: displacement per mode, shape (directions, groups, width, 8), and per force, (groups, 3 contact nodes, 8);
+    # addresses: displacement per mode, shape (directions, groups, modes, 8), and per force, (groups, 3 contact nodes, 8);
     # clearance, radius and angle of the nodes; the casing's shape at two turns of steps, the step of each node's angle, and
     # the shares of the four values round it
     _fields("rows flexibility clearance radius theta table steps shares", kind=np.int64),
@@ -212,17 +211,13 @@ def integration_record(capacity: Capacity) -> np.dtype:
     groups = nodes // padded(1)
     return aligned_record(
         _fields("speed", kind=constants_record(modes, nodes)),
-        # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; with Coriolis the increment of the last one,
-        # had there been no force
-        _fields("u increment last_increment last_second_difference", modes),
-        _fields("push increment_push", modes),  # forces on the modes and, with Coriolis, on their increments
+        # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}
+        _fields("u increment last_increment", modes),
+        _fields("push", modes),  # forces on the modes
         # displacement of the nodes per mode, and the size of it per amplitude that turns
         _fields("displacement_operator size_operator", 3, nodes, modes),
         _fields("outputs", 1, modes, modes),
         _fields("sample", modes),
-        # with Coriolis the same per increment
-        _fields("increment_operator", 3, nodes, modes),
-        _fields("increment_outputs", 1, modes, modes),
         _fields("friction_share", 2, nodes),  # tangential and meridional force per normal force
         # with central differences: opening of the last node's gap per unit multiplier of the one before, with friction
         _fields("response", nodes, nodes),

@@ -3,7 +3,6 @@
 Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* = a u_n + b u_{n-1}; where a tip node passes the
 lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is the same
 recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with keep = -b, pull = 1 - a - b, inverse = c.
-With Coriolis u is the real part of a complex amplitude, whose increment moves the nodes, too: time_integration.gyroscopic.
 
 `m` is a record of layout; tip nodes are lanes (r37core.machine_code.lanes), sets of nodes are bits, eight nodes to an
 integer. Names in capitals that choose are those of layout.Kind, constants of each program.
@@ -28,7 +27,7 @@ from r37core.machine_code.lanes import (
     sums_of_lanes,
 )
 
-from .layout import CORIOLIS, EXACT_GAP, MERIDIONAL, NORMAL, OF_MODES, OF_NODES, PUBLISHED, TANGENTIAL
+from .layout import EXACT_GAP, MERIDIONAL, NORMAL, OF_MODES, OF_NODES, PUBLISHED, TANGENTIAL
 
 FEW_NODES = 3
 """Largest number of nodes whose friction is set one by one."""
@@ -72,34 +71,19 @@ def along(rows, direction, modal, g, used):
 @inlined
 def displaced(m, direction, g):
     """Displacement of the eight nodes from g on, by all modes."""
-    total = along(m.displacement_operator, direction, m.u, g, mode_lanes(m))
-    if CORIOLIS:
-        total += along(m.increment_operator, direction, m.increment, g, mode_lanes(m))
-    return total
-
-
-@inlined
-def second_difference(m, i):
-    """Increment of the increments of the eight modes from i on: d_n - d_{n-1} of the free motion through u_n, d_n."""
-    u, d, keep = load(m.u, i), load(m.increment, i), load(m.speed.keep, i)
-    return ((keep - 1.0) * d - load(m.speed.pull, i) * (u - d)) * load(m.speed.inverse_keep, i)
+    return along(m.displacement_operator, direction, m.u, g, mode_lanes(m))
 
 
 @inlined
 def predict(m, lost):
     """The free step of every mode; returns `lost` and the energy it loses, in lanes."""
     for i in range(0, mode_lanes(m), LANES):
-        if CORIOLIS:
-            store(m.last_second_difference, i, second_difference(m, i))
         u, last, keep, pull = load(m.u, i), load(m.increment, i), load(m.speed.keep, i), load(m.speed.pull, i)
         d = keep * last - pull * u
         store(m.last_increment, i, last)
         store(m.increment, i, d)
         store(m.u, i, u + d)
-        if CORIOLIS:
-            lost += load(m.speed.loss, i) * (pull * u * (u - last) + ((1.0 - keep) * u + keep * last) * last)
-        else:
-            lost += load(m.speed.loss, i) * ((d + last) * (d + last))
+        lost += load(m.speed.loss, i) * ((d + last) * (d + last))
     return lost
 
 
@@ -171,10 +155,6 @@ def set_friction_of_listed(m, listed, count):
                         last = 0.5 * (3.0 * load(m.increment, i) - last)
                     t += load(m.displacement_operator, (TANGENTIAL, k, i)) * last
                     r += load(m.displacement_operator, (MERIDIONAL, k, i)) * last
-                    if CORIOLIS:
-                        last = 0.5 * (3.0 * second_difference(m, i) - load(m.last_second_difference, i))
-                        t += load(m.increment_operator, (TANGENTIAL, k, i)) * last
-                        r += load(m.increment_operator, (MERIDIONAL, k, i)) * last
                 # put into lanes here: loading together what was stored one by one stalls the processor
                 tangential = np.where(flag_at(k - g), sum_of_lanes(t), tangential)
                 meridional = np.where(flag_at(k - g), sum_of_lanes(r), meridional)
@@ -430,14 +410,9 @@ def sum_pushes(m):
 def push_lanes(m, first, end, work, lost):
     """Push the modes from the `first` lane to the `end`; adds the work, doubled, and the energy lost."""
     for i in range(first, end, LANES):
-        if CORIOLIS:
-            work, lost = kick_complex_modes(m, i, load(m.push, i), load(m.increment_push, i), work, lost)
-        else:
-            work, lost = push_modes(m, i, load(m.push, i), work, lost)
+        work, lost = push_modes(m, i, load(m.push, i), work, lost)
         # the sums of the next step begin so
         store(m.push, i, 0.0)
-        if CORIOLIS:
-            store(m.increment_push, i, 0.0)
     return work, lost
 
 
@@ -455,11 +430,6 @@ def add_pushes(m, first, second, both):
         if both:
             push = pushed(m.displacement_operator, second, i, second_force, push)
         store(m.push, i, push)
-        if CORIOLIS:
-            push = pushed(m.increment_operator, first, i, first_force, load(m.increment_push, i))
-            if both:
-                push = pushed(m.increment_operator, second, i, second_force, push)
-            store(m.increment_push, i, push)
 
 
 @inlined
@@ -480,25 +450,6 @@ def push_modes(m, i, push, work, lost):
     store(m.increment, i, load(m.increment, i) + pushed)
     store(m.u, i, load(m.u, i) + pushed)
     return work + push * (free + pushed), lost + load(m.speed.loss, i) * (pushed * (free + free + pushed))
-
-
-@inlined
-def kick_complex_modes(m, i, push, increment_push, work, lost):
-    """Add a kick at the begin of the step to the eight modes from i on; adds work, doubled, and loss: see ComplexRecursion."""
-    keep, pull = load(m.speed.keep, i), load(m.speed.pull, i)
-    inverse_keep, inverse, d = load(m.speed.inverse_keep, i), load(m.speed.inverse, i), load(m.increment, i)
-    # twice the displacement mid-kick, its increment times keep, and q
-    before = load(m.u, i) - d
-    kicked = inverse * inverse_keep * increment_push
-    displacement = before + before - kicked
-    increment = 2.0 * (d + pull * before) + inverse * push
-    sense = 0.5 * (1.0 - keep - pull)
-    push_work = push * (increment + sense * displacement)
-    push_work -= increment_push * (sense * inverse_keep * increment + pull * displacement)
-    pushed = inverse * push + pull * kicked
-    store(m.increment, i, d + pushed)
-    store(m.u, i, before + d + pushed - kicked)
-    return work + push_work, lost + 0.5 * (1.0 - keep) * push_work
 
 
 @inlined
@@ -540,8 +491,6 @@ def record(m, block, row, pressed):
     beyond = 0
     for g in range(0, outputs, LANES):
         total = along(m.outputs, 0, m.u, g, modes)
-        if CORIOLIS:
-            total += along(m.increment_outputs, 0, m.increment, g, modes)
         if not PUBLISHED and pressed:
             total += along(m.force_outputs, 0, m.static_force, g, 3 * nodes)
         store(m.sample, g, total)
@@ -550,12 +499,9 @@ def record(m, block, row, pressed):
     for o in range(outputs):
         samples[block * outputs + o] = m.sample[o]
     if row >= 0:
-        numbers = 2 * modes if CORIOLIS else modes
-        width = numbers + (0 if PUBLISHED else 3 * nodes)
+        width = modes + (0 if PUBLISHED else 3 * nodes)
         for i in range(modes):
             snapshots[row * width + i] = m.u[i]
-            if CORIOLIS:
-                snapshots[row * width + modes + i] = m.increment[i]
-        for k in range(width - numbers):
-            snapshots[row * width + numbers + k] = m.static_force[k]
+        for k in range(width - modes):
+            snapshots[row * width + modes + k] = m.static_force[k]
     return beyond == 0
