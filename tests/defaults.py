@@ -7,12 +7,12 @@ from typing import Any
 from r37core.contact import scene
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining
-from r37core.exchange.importing import source
-from r37core.exchange.importing.source import Where
-from r37core.exchange.orientation import Orientation
+from r37core.fem.orientation import Orientation
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.rom import reduction_choice
 from r37core.time_integration.integration_choice import IntegrationChoice
+from r37imports.importing import source
+from r37imports.importing.source import Where
 
 __all__ = ["Casing", "Friction", "IntegrationChoice", "InteractionChoice", "Lining", "Orientation", "Where"]
 

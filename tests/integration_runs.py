@@ -9,10 +9,10 @@ from defaults import Friction
 from integration_cases import NARROW
 from reference_engine import ReferenceRotor, ReferenceRunUp, ReferenceSimulation
 
-from r37core.run_ups.integration import RunUpIntegration
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
+from r37studies.run_ups.integration import RunUpIntegration
 
 ENGINES = {"compiled": Simulation, "reference": ReferenceSimulation}
 ROTORS = {"compiled": RotorSimulation, "reference": ReferenceRotor}

@@ -10,10 +10,10 @@ import numpy as np
 from reference_motion import MotionWithCasing, motion_of
 
 from r37core.contact.casing import casing_axes
-from r37core.run_ups.integration import RunUpIntegration
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.state import Schedule, SimulationRecord
+from r37studies.run_ups.integration import RunUpIntegration
 
 MOST_SWEEPS = 200
 

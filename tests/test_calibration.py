@@ -5,11 +5,11 @@ import pytest
 
 from r37core.base.varied_number import SCENE, VariedNumber
 from r37core.config.spread import SpreadEntry
-from r37core.measured.calibration import Calibration, Numbers
-from r37core.measured.points import Measurement, Points
-from r37core.measured.posterior import calibration_dataset, notes, number_table
-from r37core.measured.sampling import draws
 from r37core.sweep.driver import one_by_one
+from r37studies.measured.calibration import Calibration, Numbers
+from r37studies.measured.points import Measurement, Points
+from r37studies.measured.posterior import calibration_dataset, notes, number_table
+from r37studies.measured.sampling import draws
 
 pytest.importorskip("sklearn")
 

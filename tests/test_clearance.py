@@ -15,7 +15,6 @@ from integration_runs import ENGINES, RUN_UPS, whole_run
 
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, checked_scene
-from r37core.exchange.fields import displacement_of
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import factorise
@@ -25,16 +24,17 @@ from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rotation import BucklingError, rotation_amplitudes, shapes_of_rotation
-from r37core.run_ups import revolutions
-from r37core.run_ups.choice import RunUp
-from r37core.run_ups.integration import RunUpIntegration
-from r37core.run_ups.revolutions import record_run_up
 from r37core.stress.operator import von_mises
 from r37core.time_integration.clearance import NoRoomError, check_room, clearances, growth
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
+from r37studies.fields import displacement_of
+from r37studies.run_ups import revolutions
+from r37studies.run_ups.choice import RunUp
+from r37studies.run_ups.integration import RunUpIntegration
+from r37studies.run_ups.revolutions import record_run_up
 
 SHORT = IntegrationChoice(4e-7, 3, 62, integrator="exact_modal")
 NARROW = replace(ABRADABLE, lining=replace(LINING, bar_area=1.6e-7))

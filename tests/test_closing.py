@@ -7,18 +7,18 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from r37core.designs import table as designs
 from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.closing import closing_lines
 from r37core.product.extensions import EXTENSIONS
 from r37core.product.remarks import line_of_extension
 from r37core.results.closing import lining_texts
-from r37core.rotors import dataset as rotors
-from r37core.run_ups import tables as run_ups
-from r37core.search import dataset as search
-from r37core.signals import dataset as signals
-from r37core.tolerances import table as tolerances
+from r37studies.designs import table as designs
+from r37studies.rotors import dataset as rotors
+from r37studies.run_ups import tables as run_ups
+from r37studies.search import dataset as search
+from r37studies.signals import dataset as signals
+from r37studies.tolerances import table as tolerances
 
 HEAD = "blade,scene,mode,engine_order,share_of_revolutions_above_yield,largest_stress_pa,largest_stress_over_yield,"
 HEAD += "largest_stress_speed_rad_s"

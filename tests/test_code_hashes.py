@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from r37core.base.packages import PACKAGES
 from r37core.machine_code import kept
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint
@@ -20,8 +21,8 @@ from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import FIGURES, drawing
-from r37core.requirements.plan import Judged
-from r37core.run_ups.plan import RunUps
+from r37studies.requirements.plan import Judged
+from r37studies.run_ups.plan import RunUps
 
 SCRIPT = "from job import run\nfrom r37core.a import f\n"
 
@@ -153,12 +154,12 @@ def _level():
 )
 def test_of_a_step_only_what_it_uses_counts(tree, file, old, new, first, second):
     (tree / "src/r37core/steps.py").write_text(STEPS)
-    before = [hashes(tree).step(f"steps.{name}") for name in ("first", "second")]
+    before = [hashes(tree).step(f"r37core.steps.{name}") for name in ("first", "second")]
     assert [one["step"] for one in before] == ["r37core.steps.first", "r37core.steps.second"]
     edited = tree / "src/r37core" / file
     assert old in edited.read_text()
     edited.write_text(edited.read_text().replace(old, new, 1))
-    after = [hashes(tree).step(f"steps.{name}") for name in ("first", "second")]
+    after = [hashes(tree).step(f"r37core.steps.{name}") for name in ("first", "second")]
     assert [one != other for one, other in zip(before, after, strict=True)] == [first, second]
 
 
@@ -178,10 +179,10 @@ def rules(root):
         needed = re.match(r"use rule step as|(?:(?!\nfor )[\s\S])*scripts/step\.py", block) is not None
         assert len(steps) == (needed and rule != "step"), rule
         if steps:
-            found[rule] = ("step", f"r37core.{steps[0]}")
-    drawn = {figure.rule: f"r37core.{figure.draw.rpartition('.')[0]}" for figure in FIGURES}
+            found[rule] = ("step", steps[0])
+    drawn = {figure.rule: figure.draw.rpartition(".")[0] for figure in FIGURES}
     found |= {rule: ("step", "r37core.figures.steps.draw", module) for rule, module in drawn.items()}
-    return found | {"tables": ("step", "r37core.trials.steps.report", "r37core.trials.tradeoff_tables")}
+    return found | {"tables": ("step", "r37studies.trials.steps.report", "r37studies.trials.tradeoff_tables")}
 
 
 def test_every_rule_of_a_step_names_one_that_is_there(rules):
@@ -204,7 +205,8 @@ def test_a_figure_s_parameters_have_the_code_of_its_module(root):
 
 def test_every_rule_runs_again_for_the_modules_of_its_closure_and_no_other(root, rules, monkeypatch):
     code = CodeHashes(root / "src", root / "workflow/scripts")
-    modules = [*(root / "src/r37core").rglob("*.py"), *(root / "workflow/scripts").glob("*.py")]
+    modules = [file for package in PACKAGES for file in (root / "src" / package).rglob("*.py")]
+    modules += (root / "workflow/scripts").glob("*.py")
     modules.remove(root / "src/r37core/__init__.py")
     scripts = set(rules.values())
     before = {script: code(*script) for script in scripts}
@@ -235,13 +237,23 @@ def modules_used(function):
             module = getattr(value, "__name__" if inspect.ismodule(value) else "__module__", None) or ""
             if module == function.__module__ and inspect.isfunction(value):
                 waiting += {value.__code__} - seen
-            elif module.startswith("r37core"):
+            elif module.split(".")[0] in PACKAGES:
                 found.add(module)
     return found
 
 
-STEPS_LOADED = ("time_integration.speed_job.prepare", "results.steps.response", "fem.steps.mesh", "results.steps.summary")
-STEPS_LOADED += ("time_integration.speed_job.simulate", "trials.steps.run", "run_ups.steps.record", "exports.steps.stress")
+STEPS_LOADED = (
+    "r37core.time_integration.speed_job.prepare",
+    "r37core.results.steps.response",
+    "r37core.fem.steps.mesh",
+    "r37core.results.steps.summary",
+)
+STEPS_LOADED += (
+    "r37core.time_integration.speed_job.simulate",
+    "r37studies.trials.steps.run",
+    "r37studies.run_ups.steps.record",
+    "r37studies.exports.steps.stress",
+)
 
 
 @pytest.mark.slow
@@ -250,22 +262,23 @@ def test_the_closure_has_all_that_python_loads(root):
     core = (root / "src/r37core").resolve()
     code = CodeHashes(core.parent, root / "workflow/scripts")
     for name in STEPS_LOADED:
-        module, function = f"r37core.{name}".rsplit(".", 1)
+        module, function = name.rsplit(".", 1)
         text = "".join(f"import {used}\n" for used in modules_used(getattr(import_module(module), function)))
-        text += "import sys\nprint(*(module.__file__ for name, module in sys.modules.items() if name.startswith('r37core')))"
+        text += "import sys\nfrom r37core.base.packages import PACKAGES\n"
+        text += "print(*(module.__file__ for name, module in sys.modules.items() if name.split('.')[0] in PACKAGES))"
         files = subprocess.run([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True, check=True).stdout.split()
         loaded = {*files} - {str(core / "__init__.py"), "None"}
         assert len(loaded) > 3
-        assert loaded <= {str(file) for file in code.closure(f"r37core.{name}")}, name
+        assert loaded <= {str(file) for file in code.closure(name)}, name
 
 
 def test_stages_do_not_share_more_than_they_need(root):
     """A new figure re-runs no simulation, a new time integration no mesh, and the models of the configuration neither."""
     code = CodeHashes(root / "src", root / "workflow/scripts")
     for name, others in {
-        "fem.steps.mesh": "time_integration contact results figures trials config workflow",
+        "r37core.fem.steps.mesh": "time_integration contact results figures trials config workflow",
         "time_integration.speed_job.simulate": "mesh fem blade results figures trials config workflow",
-        "results.steps.response": "figures trials config workflow",
-        "trials.steps.run": "config workflow",
+        "r37core.results.steps.response": "figures trials config workflow",
+        "r37studies.trials.steps.run": "config workflow",
     }.items():
-        assert not {*others.split()} & {file.parent.name for file in code.closure(f"r37core.{name}")}, name
+        assert not {*others.split()} & {file.parent.name for file in code.closure(name)}, name

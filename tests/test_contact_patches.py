@@ -21,11 +21,9 @@ from r37core.config.remarks import (
     remarks_on_unlike_contact,
 )
 from r37core.config.settings import location_of_contact
-from r37core.exchange.importing.matrices_in import import_matrices
-from r37core.exchange.orientation import OURS
-from r37core.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
+from r37core.fem.orientation import OURS
 from r37core.fem.traces import edge_traces
 from r37core.plans.provenance import structure_hash
 from r37core.product.extensions import read_settings
@@ -35,6 +33,8 @@ from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import BoundaryError, boundary_located
 from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integrators import EXACT_MODAL
+from r37imports.importing.matrices_in import import_matrices
+from r37studies.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 
 EVEN = {"spacing": "even"}
 PATCHES = BoundaryChoice("pressure_edge", 4, True, "patches", "even")

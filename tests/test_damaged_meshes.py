@@ -9,10 +9,10 @@ import pytest
 from box_mesh import plate, write_deck, write_with_gmsh
 from defaults import MeshSource, Where
 
-from r37core.exchange.importing.import_mesh import import_mesh
-from r37core.exchange.orientation import OURS
-from r37core.exchange.refusal import ImportRefused
-from r37core.exchange.write_mesh import write_mesh
+from r37core.fem.orientation import OURS
+from r37core.fem.write_mesh import write_mesh
+from r37imports.importing.import_mesh import import_mesh
+from r37imports.refusal import ImportRefused
 
 ROOT, TIP = Where(limits=(("x", "at_most", 0.2),), tolerance=1e-6), Where(limits=(("x", "at_least", 0.26),), tolerance=1e-6)
 

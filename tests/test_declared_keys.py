@@ -16,8 +16,8 @@ from r37core.base.units import LIKE_A_UNIT, SI_UNITS, SUFFIXES, unit_of
 from r37core.config import ConfigError, Document, checked_scene, si_fields, si_form
 from r37core.config.declaring import DECLARED, declared_by
 from r37core.config.section import Section
-from r37core.designs.table import MEASURES
 from r37core.results.columns import OPERATING, RANKING, SUMMARY, Column
+from r37studies.designs.table import MEASURES
 
 
 @dataclass(frozen=True)

@@ -38,8 +38,6 @@ from r37core.product.extensions import read_settings
 from r37core.results.casing_coincidence import coincidence_table, coincidences, seen_from_rotor, waves_of
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response
-from r37core.run_ups.choice import RunUp
-from r37core.run_ups.integration import RunUpIntegration
 from r37core.time_integration.clearance import NoRoomError
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.kept_numbers import casing_waves
@@ -47,6 +45,8 @@ from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
+from r37studies.run_ups.choice import RunUp
+from r37studies.run_ups.integration import RunUpIntegration
 
 CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL)
 

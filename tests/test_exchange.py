@@ -14,25 +14,26 @@ from pydantic import TypeAdapter, ValidationError
 from scipy import constants
 
 from r37core.base.units import LENGTH_UNITS
-from r37core.config.imported_entry import LengthUnit
-from r37core.exchange.importing.abaqus_reader import read_abaqus
-from r37core.exchange.importing.bulk_data import bulk_cards
-from r37core.exchange.importing.coordinate_systems import GridPoints
-from r37core.exchange.importing.import_mesh import _READERS, import_mesh
-from r37core.exchange.importing.meshio_reader import quietly, read_nastran, read_with_meshio
-from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, mesh_files
-from r37core.exchange.orientation import OURS
-from r37core.exchange.refusal import ImportRefused, MeshWarning, located
-from r37core.exchange.write_mesh import write_mesh
-from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
+from r37core.fem.orientation import OURS
 from r37core.fem.solver import lowest_modes
 from r37core.fem.surface import chosen, mask_within, outer_faces
+from r37core.fem.write_mesh import write_mesh
 from r37core.mesh.generate import generate_mesh, quiet_gmsh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.rom.naming import ideal_shapes
+from r37imports.imported_entry import LengthUnit
+from r37imports.importing.abaqus_reader import read_abaqus
+from r37imports.importing.bulk_data import bulk_cards
+from r37imports.importing.coordinate_systems import GridPoints
+from r37imports.importing.import_mesh import _READERS, import_mesh
+from r37imports.importing.meshio_reader import quietly, read_nastran, read_with_meshio
+from r37imports.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, mesh_files
+from r37imports.placement import warn_of_size
+from r37imports.refusal import ImportRefused, MeshWarning, located
+from r37studies.exports.abaqus_deck import write_abaqus
 
 
 def source(file, **changes):
@@ -441,7 +442,7 @@ def test_a_blade_larger_than_any_is_told():
     for radius, told in places.items():
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            OURS.warn_of_size(radius * np.array([[0.9, 0.0, 0.0], [1.0, 0.0, 0.1]]))
+            warn_of_size(OURS, radius * np.array([[0.9, 0.0, 0.0], [1.0, 0.0, 0.1]]))
         assert [f"tip radius of {radius:.3g} m" in str(warning.message) for warning in caught] == [True] * told
 
 

@@ -8,11 +8,11 @@ import pytest
 from browser import opened
 from explorer_cases import beside, interaction_rows, sweep
 
-from r37core.designs.panel import contents as design_panel
 from r37core.explorer import FOLDER, page_parts, write_page
 from r37core.explorer.contents import explorer_contents
 from r37core.results.columns import RANKING as RANKING_COLUMNS
 from r37core.results.columns import SUMMARY, column_named
+from r37studies.designs.panel import contents as design_panel
 
 RANKING = pd.DataFrame(
     [

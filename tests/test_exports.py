@@ -15,15 +15,15 @@ import scipy.sparse as sp
 from box_operator import box_operator
 from defaults import MatricesSource, Orientation
 
-from r37core.exchange.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
-from r37core.exchange.importing.matrices_in import import_matrices, wording
-from r37core.exchange.importing.matrix_file import read_matrix
-from r37core.exchange.orientation import OURS
-from r37core.exchange.refusal import ImportRefused, MeshWarning
-from r37core.exports.matrices_out import write_full_matrices, write_reduced_matrices
+from r37core.fem.orientation import OURS
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.speed_file import write_speed
+from r37imports.importing.matrices_in import import_matrices, wording
+from r37imports.importing.matrix_file import read_matrix
+from r37imports.refusal import ImportRefused, MeshWarning
+from r37studies.exports.matrices_out import write_full_matrices, write_reduced_matrices
+from r37studies.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 
 NAMES = {"M.mtx", "K_0.mtx", "K_1000.mtx", "K_2000.mtx", "boundary.csv"}
 FOREIGN = Orientation("mm", (0.6, 0.8, 0), (0, 0, 1), "positive", (5.0, 6.0, 7.0))

@@ -19,18 +19,18 @@ from r37core.base.plain import to_plain
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, command_line_document, plain
 from r37core.config.families import design_name
-from r37core.designs.compared import Compared
-from r37core.designs.figures import draw_designs
-from r37core.designs.maps import draw_design_map, some_above_yield
-from r37core.designs.panel import contents
-from r37core.designs.plan import EXTENSION, Families
-from r37core.designs.table import MEASURES, compared_in, design_table
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import FIGURES, drawing, targets
 from r37core.results.columns import names
-from r37core.run_ups.plan import RunUps
 from r37core.time_integration.status import RunStatus
+from r37studies.designs.compared import Compared
+from r37studies.designs.figures import draw_designs
+from r37studies.designs.maps import draw_design_map, some_above_yield
+from r37studies.designs.panel import contents
+from r37studies.designs.plan import EXTENSION, Families
+from r37studies.designs.table import MEASURES, compared_in, design_table
+from r37studies.run_ups.plan import RunUps
 
 SWEEP = "Sweep:\n  base: S100\n  vary:\n    sweep_percent: { start: -50, stop: 150, step: 100 }\n"
 GRID = "Grid:\n  base: Ref\n  vary:\n    chordwise_sweep_deg: [-2.5, 5]\n    material.density_kg_m3: [8000, 4500]\n"

@@ -23,11 +23,7 @@ from r37core.results.response import write_response
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import write_reduced_model
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.run_ups.choice import RunUp
-from r37core.run_ups.integration import RunUpIntegration
-from r37core.run_ups.revolutions import record_run_up
 from r37core.stress.cycles import StressCycles, rainflow_cycles
-from r37core.stress.damage import largest_damage
 from r37core.stress.operator import StressOperator, von_mises
 from r37core.stress.recovery import stress_operators
 from r37core.stress.revolutions import largest_cycles, stress_cycles
@@ -36,6 +32,10 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import numbers_of_run, run_speed
+from r37studies.run_ups.choice import RunUp
+from r37studies.run_ups.damage import largest_damage
+from r37studies.run_ups.integration import RunUpIntegration
+from r37studies.run_ups.revolutions import record_run_up
 
 XX, YY, ZZ, XY = range(4)
 PER_REVOLUTION, REVOLUTIONS = 48, 5

@@ -14,21 +14,21 @@ from defaults import MatricesSource, MeshSource, Orientation, Where
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.sense import check_profile_sense, sense_of_line, sense_of_profile
 from r37core.config import ConfigError
-from r37core.exchange.importing import ends, meshio_reader, tip
-from r37core.exchange.importing.fitting_entry import find_axes
-from r37core.exchange.importing.import_mesh import blade_parameters, import_mesh
-from r37core.exchange.importing.matrices_in import import_matrices
-from r37core.exchange.importing.raw_mesh import RawMesh
-from r37core.exchange.importing.source import matrix_files
-from r37core.exchange.orientation import OURS
-from r37core.exchange.refusal import ImportRefused, MeshWarning
-from r37core.exchange.write_mesh import write_mesh
-from r37core.exports.matrices_out import write_reduced_matrices
+from r37core.fem.orientation import OURS
 from r37core.fem.surface import outer_faces
+from r37core.fem.write_mesh import write_mesh
 from r37core.figures.blade_shapes import draw_blade_shapes
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.product.extensions import read_settings
+from r37imports.importing import ends, meshio_reader, tip
+from r37imports.importing.fitting_entry import find_axes
+from r37imports.importing.import_mesh import blade_parameters, import_mesh
+from r37imports.importing.matrices_in import import_matrices
+from r37imports.importing.raw_mesh import RawMesh
+from r37imports.importing.source import matrix_files
+from r37imports.refusal import ImportRefused, MeshWarning
+from r37studies.exports.matrices_out import write_reduced_matrices
 
 
 def raw(mesh):

@@ -11,17 +11,17 @@ from box_mesh import TITANIUM, box_mesh, plate, write_deck, write_with_gmsh
 from defaults import MeshSource, Orientation, Where
 from pydantic import ValidationError
 
-from r37core.config.imported_entry import MeshEntry, SurfaceRule
-from r37core.exchange.importing.file_material import ignored_material
-from r37core.exchange.importing.import_mesh import import_mesh, size_in_words
-from r37core.exchange.importing.meshio_reader import read_with_meshio
-from r37core.exchange.importing.source import mesh_files
-from r37core.exchange.orientation import OURS
-from r37core.exchange.refusal import ImportRefused, MeshWarning
-from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.elements import ELEMENTS
+from r37core.fem.orientation import OURS
+from r37core.fem.write_mesh import write_mesh
 from r37core.mesh.generate import generate_mesh, quiet_gmsh
 from r37core.rom.region_choice import RegionChoice
+from r37imports.imported_entry import MeshEntry, SurfaceRule
+from r37imports.importing.file_material import ignored_material
+from r37imports.importing.import_mesh import import_mesh, size_in_words
+from r37imports.importing.meshio_reader import read_with_meshio
+from r37imports.importing.source import mesh_files
+from r37imports.refusal import ImportRefused, MeshWarning
 
 THEIRS = Orientation("mm", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), "negative")
 """x along the rotor's axis, y through the blade."""

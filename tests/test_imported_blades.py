@@ -11,12 +11,8 @@ from defaults import Where
 from workflow_runs import overlay
 
 from r37core.base.plain import to_plain
-from r37core.blade.definition import BladeDefinition
 from r37core.config import ConfigError
-from r37core.exchange.importing.source import MatricesSource, MeshSource
-from r37core.exchange.orientation import OURS
-from r37core.exports.plan import Exports
-from r37core.exports.plan import targets as exported_targets
+from r37core.fem.orientation import OURS
 from r37core.figures.declared import FIGURES
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
@@ -24,9 +20,11 @@ from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
-from r37core.signals.plan import Signals
-from r37core.trials import stability, tradeoff
-from r37core.trials.plan import Trials
+from r37studies.exports.plan import Exports
+from r37studies.exports.plan import targets as exported_targets
+from r37studies.signals.plan import Signals
+from r37studies.trials import stability, tradeoff
+from r37studies.trials.plan import Trials
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 AXES = {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1], "rotation": "positive"}
@@ -81,9 +79,9 @@ def test_a_mesh_has_what_it_leaves_out_from_its_base(settings_with, config_copy)
     [
         (MESH, {}, ["Fan"], ["Fan"]),
         (MATRICES, {}, ["Fan"], []),
-        (MESH, {"shapes: { modes: 6 }": "shapes: { imported: false }\nsignals: { imported: false }"}, [], []),
-        (MESH, {"shapes: { modes: 6 }": "signals: { speeds_rad_s: [900] }"}, ["Ref", "Fan"], ["Fan"]),
-        (MESH, {"shapes: { modes: 6 }": "signals: { blades: [Ref] }"}, [], ["Fan"]),
+        (MESH, {"# shapes: {": "shapes: { imported: false }\nsignals: { imported: false }\n#"}, [], []),
+        (MESH, {"# shapes: {": "signals: { speeds_rad_s: [900] }\n#"}, ["Ref", "Fan"], ["Fan"]),
+        (MESH, {"# shapes: {": "signals: { blades: [Ref] }\n#"}, [], ["Fan"]),
     ],
 )
 def test_a_blade_of_another_program_has_modes_and_signals_at_its_interactions(settings_with, entry, config, signals, modes):
@@ -214,8 +212,18 @@ def test_matrices_that_cannot_be_meant(settings_with, changes, message):
     [
         (MATRICES, "spin_softening: false", "spin_softening: true", r"\.spin_softening: .* put the term into its K_<speed>"),
         (MATRICES, "[abradable, direct]", "[growing_abradable]", r"\.centrifugal: found true, as.*'Fan', given by matrices"),
-        (MESH, "rad_s: worst", "rad_s: [1000.5]", r"exports\.stress_speeds_rad_s\.0: found 1000\.5; .* speeds that are sim"),
-        (MESH, "full_matrices: false", "mode_speeds_rad_s: [0, 2500]", r"exports\.mode_speeds_rad_s\.1: found 2500; .*, 2000"),
+        (
+            MESH,
+            "# exports:",
+            "exports: { stress_speeds_rad_s: [1000.5] }\n#",
+            r"exports\.stress_speeds_rad_s\.0: found 1000\.5; .* speeds that are sim",
+        ),
+        (
+            MESH,
+            "# exports:",
+            "exports: { mode_speeds_rad_s: [0, 2500] }\n#",
+            r"exports\.mode_speeds_rad_s\.1: found 2500; .*, 2000",
+        ),
     ],
 )
 def test_what_an_imported_blade_cannot_have(settings_with, entry, old, new, message):
@@ -234,7 +242,7 @@ def three(settings_with, config_copy, monkeypatch):
 def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     imported, sweep = three
     fan, given = (SimpleNamespace(blade=blade, scene="direct", speed="750") for blade in ("Fan", "Given"))
-    assert [*map(imported.pattern, (BladeDefinition, MeshSource, MatricesSource))] == ["Ref", "Fan", "Given"]
+    assert [*map(imported.pattern, ("geometry", "imported_mesh", "imported_matrices"))] == ["Ref", "Fan", "Given"]
     assert imported.files(fan) == ["meshes/fan.inp", "meshes/more.inc"]
     names = ["K_0.mtx", "K_1000.npz", "K_2000.mtx", "M.mtx", "boundary.csv"]
     assert [file.rsplit("/", 1)[1] for file in imported.files(given)] == names

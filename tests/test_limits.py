@@ -9,13 +9,13 @@ from r37core.fem.equilibrium import Rotation
 from r37core.fem.large_displacement import LargeDisplacement
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import factorise, lowest_modes
-from r37core.requirements.choice import Requirements
-from r37core.requirements.evidence import Evidence
-from r37core.requirements.judging import FAILS, MEETS, UNKNOWN, judge
 from r37core.results.limits import OF_LIMITS, beyond_limits, reasons_beyond_limits
 from r37core.results.operating_range import OperatingRange
 from r37core.rom.quadratic_terms import PATH_SHARES
 from r37core.rom.reduced_model import contact_model
+from r37studies.requirements.choice import Requirements
+from r37studies.requirements.evidence import Evidence
+from r37studies.requirements.judging import FAILS, MEETS, UNKNOWN, judge
 
 WITHIN = {
     "peak_share_of_height": 0.1,

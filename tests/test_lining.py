@@ -20,7 +20,7 @@ from r37core.rom.contact_weights import tip_lengths
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.lining_at_tip import lining_at_tip
 from r37core.time_integration.simulate import Simulation
-from r37core.trials import stability
+from r37studies.trials import stability
 
 LINING = Lining(5e-3, 20e9, 5e9, 1.5, contact_length=2e-4)
 SOFT = replace(LINING, elastic_modulus=1e3, plastic_modulus=2.5e2, yield_stress=0.0)

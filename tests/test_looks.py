@@ -10,10 +10,18 @@ from defaults import IntegrationChoice, Lining
 from integration_cases import ABRADABLE, DIRECT
 
 from r37core.contact.scene import DampingRow
-from r37core.requirements import looks as further_runs
-from r37core.requirements.choice import WIDTH, Requirements
-from r37core.requirements.evidence import HALF_FRICTION, Evidence, beyond_model
-from r37core.requirements.judging import (
+from r37core.results.operating_range import OperatingRange
+from r37core.results.response import run_row
+from r37core.stress.recovery import stress_operators
+from r37core.stress.statistic import UNKNOWN
+from r37core.sweep.parts import Parts
+from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.status import RunStatus
+from r37studies.requirements import looks as further_runs
+from r37studies.requirements.choice import WIDTH, Requirements
+from r37studies.requirements.evidence import HALF_FRICTION, Evidence, beyond_model
+from r37studies.requirements.judging import (
     DOWN,
     FAILS,
     FAST_RISE,
@@ -31,15 +39,7 @@ from r37core.requirements.judging import (
     UP,
     judge,
 )
-from r37core.requirements.looks import JudgedBlade, joined_looks, looks_in, looks_of
-from r37core.results.operating_range import OperatingRange
-from r37core.results.response import run_row
-from r37core.stress.recovery import stress_operators
-from r37core.stress.statistic import UNKNOWN
-from r37core.sweep.parts import Parts
-from r37core.time_integration.integrators import EXACT_MODAL
-from r37core.time_integration.speed_run import run_speed
-from r37core.time_integration.status import RunStatus
+from r37studies.requirements.looks import JudgedBlade, joined_looks, looks_in, looks_of
 
 CHOICE = IntegrationChoice(6.4e-6, 12, 62, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}

@@ -22,22 +22,19 @@ from packaging.utils import canonicalize_name
 import r37
 from r37core import __version__
 from r37core.base.io import FILE_ATTRIBUTES
-from r37core.product.extensions import FOLDERS
+from r37studies.registry import FOLDERS
 
 LAYERS = ["base", "machine_code", "blade", "mesh", "fem", "rom", "contact", "stress", "time_integration", "results", "adaptive"]
-LAYERS += [
-    "exchange",
-    "config",
-    "rub_tests",
-    "plans",
-    "sweep",
-    "surrogate",
-    "figures",
-    "explorer",
-    *FOLDERS,
-    "product",
-    "console",
-]
+LAYERS += ["config", "plans", "sweep", "figures", "explorer", "product", "console"]
+"""Packages of r37core: each may import those before it."""
+
+MAY_IMPORT = {
+    "r37core": (),
+    "r37imports": ("r37core",),
+    "r37studies": ("r37core",),
+    "r37": ("r37core", "r37imports", "r37studies"),
+}
+"""Package of the distribution -> others that it may import."""
 
 
 def test_the_lock_has_a_version_of_all_that_is_asked_for(root):
@@ -118,7 +115,7 @@ def imports_of(file):
     return names
 
 
-def test_packages_import_only_those_above_them(root):
+def test_packages_of_the_core_import_only_those_above_them(root):
     """blade, mesh, fem, rom, ...: a package may use those above it, never one below it; Snakemake in the console."""
     core = root / "src/r37core"
     for file in core.rglob("*.py"):
@@ -128,6 +125,18 @@ def test_packages_import_only_those_above_them(root):
             if name.startswith("r37core.") and layer != "__init__":
                 used = name.split(".")[1]
                 assert LAYERS.index(used) <= LAYERS.index(layer), f"{file} imports {name}, which is below it"
+
+
+@pytest.mark.parametrize("package", MAY_IMPORT)
+def test_packages_import_the_core_and_not_each_other(root, package):
+    """And no extension another one: what several studies share stands in the package itself."""
+    folder = root / "src" / package
+    for file in folder.rglob("*.py"):
+        for name in imports_of(file):
+            other = name.split(".")[0]
+            assert other not in MAY_IMPORT or other in (package, *MAY_IMPORT[package]), f"{file} imports {name}"
+            if name.startswith("r37studies.") and name.split(".")[1] in FOLDERS and package == "r37studies":
+                assert name.split(".")[1] == file.relative_to(folder).parts[0], f"{file} imports {name}"
 
 
 def test_classes_have_few_members(root):
@@ -140,12 +149,12 @@ def test_classes_have_few_members(root):
 
 
 def test_the_calls_from_python_stand_above_all_else(root):
-    """r37 takes nothing of what runs or shows a whole workflow; r37core and the workflow do not know it."""
+    """r37 takes nothing of what runs or shows a whole workflow, and the workflow does not know it."""
     starts_snakemake = root / "src/r37/workflow_process.py"
     aside = ("r37core.console", "r37core.explorer", "snakemake", "workflow")
     for file in (root / "src/r37").rglob("*.py"):
         assert file == starts_snakemake or not [name for name in imports_of(file) if name.startswith(aside)], file
-    for file in [*(root / "src/r37core").rglob("*.py"), *(root / "workflow").rglob("*.py")]:
+    for file in (root / "workflow").rglob("*.py"):
         assert not [name for name in imports_of(file) if name.split(".")[0] == "r37"], file
 
 
@@ -211,12 +220,13 @@ def test_no_modules_import_each_other_in_a_circle(root):
 
 
 def test_an_extension_is_one_place(root):
-    """Its folder, its file of rules and its line in the registry: nothing else in the package or the workflow knows it."""
-    assert {f"{folder}.smk" for folder in FOLDERS} <= {file.name for file in (root / "workflow/rules").iterdir()}
-    for file in [*(root / "src/r37core").rglob("*.py"), *(root / "workflow/rules").glob("*.smk"), root / "Snakefile"]:
-        names = imports_of(file) if file.suffix == ".py" else re.findall(r"^from ([\w.]+) import", file.read_text(), re.M)
-        others = {*FOLDERS} - {file.stem if file.suffix == ".smk" else file.parent.name}
-        assert file.name == "extensions.py" or not {name.split(".")[1] for name in names if "r37core." in name} & others, file
+    """Its folder, its file of rules and its line in the registry: no other rule knows it."""
+    rules = root / "workflow/rules"
+    assert {f"{folder}.smk" for folder in FOLDERS} == {file.name for file in (rules / "studies").iterdir()}
+    for file in [*rules.rglob("*.smk"), root / "Snakefile"]:
+        names = re.findall(r"^from ([\w.]+) import", file.read_text(), re.M)
+        studies = {name.split(".")[1] for name in names if name.startswith("r37studies.")} & {*FOLDERS}
+        assert studies <= ({file.stem} if file.parent.name == "studies" else set()), file
 
 
 VAGUE, MOST_VAGUE = ("found", "one", "given"), 1

@@ -26,11 +26,11 @@ from r37.calculation import cache_folder, structure_file
 from r37.command import main
 from r37core.base.dataset_file import read_dataset
 from r37core.config import command_line_document
-from r37core.exports.matrices_out import write_reduced_matrices
 from r37core.machine_code.kept import kept_file
 from r37core.product.extensions import read_settings
 from r37core.rom.rom_file import read_reduced_model
 from r37core.sweep import recipe
+from r37studies.exports.matrices_out import write_reduced_matrices
 
 pytestmark = pytest.mark.usefixtures("warm_calls")
 

@@ -21,11 +21,11 @@ from r37core.base.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text,
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, command_line_document
 from r37core.config.settings import merged_settings
-from r37core.exports.plan import Exports
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import load_settings, read_settings
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
+from r37studies.exports.plan import Exports
 
 
 def test_a_range_has_its_coarse_speeds_and_its_end():

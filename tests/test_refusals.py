@@ -67,7 +67,7 @@ def test_what_cannot_be_zero_cannot_be_almost_zero(name):
 
 def section(text, message):
     """config.yaml with one more section."""
-    return "exports: #", f"{text}\n\nexports: #", message
+    return "# exports:", f"{text}\n\n# exports:", message
 
 
 def signals(text, message):

@@ -29,7 +29,7 @@ from r37core.base.speeds import plan_speeds
 from r37core.config import ConfigError, command_line_document
 from r37core.config.settings import merged_settings
 from r37core.console import failures, lock, snakemake_run
-from r37core.exchange.write_mesh import write_mesh
+from r37core.fem.write_mesh import write_mesh
 from r37core.machine_code import kept
 from r37core.mesh.mesh_files import save_grid, vtk_grid
 from r37core.plans.sweep_plan import speeds_of_round
@@ -202,7 +202,7 @@ def test_an_import_that_fails_inside_of_a_step_keeps_its_own_error(tmp_path, mon
     monkeypatch.delitem(sys.modules, "r37core.fem.steps", raising=False)
     monkeypatch.delitem(sys.modules, "r37core.mesh.generate", raising=False)
     with pytest.raises(ImportError, match="gmsh"):
-        recipe.run_step("fem.steps.mesh", {}, {}, {})
+        recipe.run_step("r37core.fem.steps.mesh", {}, {}, {})
     assert function_named("r37core.base.io.as_list")("a") == ["a"]
 
 

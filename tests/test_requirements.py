@@ -16,13 +16,23 @@ from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.fem.assembly import mesh_volume
 from r37core.figures.response_curves import draw_response
-from r37core.plans.other_models import ModelChoice
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
-from r37core.requirements import steps
-from r37core.requirements.choice import CampbellMargin, Requirements
-from r37core.requirements.evidence import Evidence, extended, worst_of
-from r37core.requirements.judging import (
+from r37core.results.datasets import FURTHER_RUNS, overlaid, response_of, with_further_runs
+from r37core.results.interaction_choice import InteractionChoice
+from r37core.results.interactions import summarise
+from r37core.results.operating_range import OperatingDwell, OperatingRange
+from r37core.results.regions import judged as judged_region
+from r37core.results.steps import ranking
+from r37core.results.table_file import read_table, write_table
+from r37core.results.variables import VARIABLES
+from r37core.time_integration.settling import MotionAtEnd
+from r37core.time_integration.status import RunStatus
+from r37studies.other_models import ModelChoice
+from r37studies.requirements import steps
+from r37studies.requirements.choice import CampbellMargin, Requirements
+from r37studies.requirements.evidence import Evidence, extended, worst_of
+from r37studies.requirements.judging import (
     AT_LEAST,
     COARSER_MESH,
     DOWN,
@@ -42,19 +52,9 @@ from r37core.requirements.judging import (
     judge,
     nearness,
 )
-from r37core.requirements.looks import joined_looks
-from r37core.requirements.plan import Judged, remarks
-from r37core.requirements.table import certainty, closing, operating_table, overall, reason, verdict_table
-from r37core.results.datasets import FURTHER_RUNS, overlaid, response_of, with_further_runs
-from r37core.results.interaction_choice import InteractionChoice
-from r37core.results.interactions import summarise
-from r37core.results.operating_range import OperatingDwell, OperatingRange
-from r37core.results.regions import judged as judged_region
-from r37core.results.steps import ranking
-from r37core.results.table_file import read_table, write_table
-from r37core.results.variables import VARIABLES
-from r37core.time_integration.settling import MotionAtEnd
-from r37core.time_integration.status import RunStatus
+from r37studies.requirements.looks import joined_looks
+from r37studies.requirements.plan import Judged, remarks
+from r37studies.requirements.table import certainty, closing, operating_table, overall, reason, verdict_table
 
 SPEEDS = np.arange(1000.0, 1301.0, 5.0)
 FLOWN = OperatingRange(1050.0, 1250.0)

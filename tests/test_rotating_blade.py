@@ -10,7 +10,6 @@ from scipy.linalg import eigh
 from test_calculix import printed, run_calculix
 
 from r37core.config import ConfigError, command_line_document
-from r37core.exchange.fields import WorstInstant, stress_of
 from r37core.fem.equilibrium import NoEquilibriumError, Rotation
 from r37core.fem.large_displacement import LargeDisplacement
 from r37core.fem.material import Material
@@ -25,6 +24,7 @@ from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.recovery import stress_operators
 from r37core.stress.revolutions import largest_of_revolutions
 from r37core.time_integration.simulate import Simulation
+from r37studies.fields import WorstInstant, stress_of
 
 SPEED = 1700.0
 

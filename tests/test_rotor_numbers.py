@@ -12,9 +12,6 @@ from test_rotor import CHOICE, KEPT, LINED_RING, RING, SPEED, STEEP, a_blade, ro
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import Named
 from r37core.results.table_file import read_table
-from r37core.rotors.dataset import rotor_dataset, rotor_table
-from r37core.rotors.figures import draw_rotor
-from r37core.rotors.steps import join, rotor_of_run
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.kept_numbers import KEPT as KEPT_DIRECTIONS
 from r37core.time_integration.kept_numbers import amplitudes
@@ -22,6 +19,9 @@ from r37core.time_integration.rotor_blades import mistuned
 from r37core.time_integration.rotor_numbers import MOST_GROWTH, nodal_diameters, span_maxima
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import numbers_of_run, run_speed
+from r37studies.rotors.dataset import rotor_dataset, rotor_table
+from r37studies.rotors.figures import draw_rotor
+from r37studies.rotors.steps import join, rotor_of_run
 
 
 def test_a_wave_of_nodal_diameters_is_found():

@@ -7,8 +7,8 @@ import pytest
 
 import r37
 from r37core.contact.scene import Lining
-from r37core.rub_tests.lining_fit import fit_lining
-from r37core.rub_tests.rig_table import read_rub_test
+from r37studies.measured.rub_tests.lining_fit import fit_lining
+from r37studies.measured.rub_tests.rig_table import read_rub_test
 
 SHIPPED = Lining(5e-3, 20e9, 5e9, 1.5)
 HIDDEN = Lining(2e-3, 2e9, 6e8, 2e7, contact_length=3e-4)

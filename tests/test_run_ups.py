@@ -16,15 +16,6 @@ from scipy.special import wofz
 from r37core.base.io import InputFileError
 from r37core.contact.ring import RingMode
 from r37core.rom.rotation import BucklingError
-from r37core.run_ups import choice as schedule_module
-from r37core.run_ups import integration as integration_module
-from r37core.run_ups import revolutions as revolutions_module
-from r37core.run_ups.choice import Crossing, RunUp, RunUpChoice, RunUpError, check_highest, schedule
-from r37core.run_ups.dataset import runs_of, write_run_ups
-from r37core.run_ups.figures import draw_rates, draw_run_ups
-from r37core.run_ups.integration import IntegratedSegments, RunUpIntegration
-from r37core.run_ups.revolutions import largest_stress, record_run_up
-from r37core.run_ups.tables import rate_table, run_up_table
 from r37core.time_integration import integration_choice
 from r37core.time_integration.carrying import resolved_problem
 from r37core.time_integration.integrators import EXACT_MODAL
@@ -33,6 +24,15 @@ from r37core.time_integration.segments import segments_at
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.step_limit import UnstableStepError
+from r37studies.run_ups import choice as schedule_module
+from r37studies.run_ups import integration as integration_module
+from r37studies.run_ups import revolutions as revolutions_module
+from r37studies.run_ups.choice import Crossing, RunUp, RunUpChoice, RunUpError, check_highest, schedule
+from r37studies.run_ups.dataset import runs_of, write_run_ups
+from r37studies.run_ups.figures import draw_rates, draw_run_ups
+from r37studies.run_ups.integration import IntegratedSegments, RunUpIntegration
+from r37studies.run_ups.revolutions import largest_stress, record_run_up
+from r37studies.run_ups.tables import rate_table, run_up_table
 
 LONG = IntegrationChoice(3.2e-6, 4, 62, integrator=EXACT_MODAL)
 NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))

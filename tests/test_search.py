@@ -13,15 +13,15 @@ from workflow_runs import overlay
 from r37core.base.units import shown_unit
 from r37core.config import ConfigError
 from r37core.product.extensions import read_settings
-from r37core.search import steps
-from r37core.search.dataset import search_dataset, search_table
-from r37core.search.designs import designs_of
-from r37core.search.figures import draw_designs
-from r37core.search.problem import START, Constraint, SearchChoice
-from r37core.search.quantity import DesignStructure, Quantity, contact_value, structure_value
-from r37core.search.steps import next_designs
-from r37core.surrogate.designs import SearchVariable
-from r37core.surrogate.proposal import first_designs
+from r37studies.search import steps
+from r37studies.search.dataset import search_dataset, search_table
+from r37studies.search.designs import designs_of
+from r37studies.search.figures import draw_designs
+from r37studies.search.problem import START, Constraint, SearchChoice
+from r37studies.search.quantity import DesignStructure, Quantity, contact_value, structure_value
+from r37studies.search.steps import next_designs
+from r37studies.surrogate.designs import SearchVariable
+from r37studies.surrogate.proposal import first_designs
 
 BLADES = """
 Free:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from r37core.base.plain import from_plain, to_plain
-from r37core.surrogate.designs import Design, SearchVariable, best_first, designs_at, not_dominated, shares
-from r37core.surrogate.proposal import NEAR, first_designs, propose
+from r37studies.surrogate.designs import Design, SearchVariable, best_first, designs_at, not_dominated, shares
+from r37studies.surrogate.proposal import NEAR, first_designs, propose
 
 SQUARE = (SearchVariable("a", -2.0, 2.0), SearchVariable("b", 0.0, 8.0))
 BEST = np.array([0.6, 5.6])

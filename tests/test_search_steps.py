@@ -18,14 +18,14 @@ from r37core.config import ConfigError
 from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
 from r37core.rom.rotation import BucklingError
-from r37core.search import evaluation, steps
-from r37core.search.designs import NOMINAL, designs_of
-from r37core.search.evaluation import Evaluation, Refused
-from r37core.search.plan import Search, remarks, simulations
 from r37core.stress.operator import StressOperator
 from r37core.sweep import recipe
 from r37core.sweep.driver import one_by_one
 from r37core.sweep.recipe import Recipe, recipes
+from r37studies.search import evaluation, steps
+from r37studies.search.designs import NOMINAL, designs_of
+from r37studies.search.evaluation import Evaluation, Refused
+from r37studies.search.plan import Search, remarks, simulations
 
 CHECK_SHAPE = Evaluation._check_shape
 
@@ -143,7 +143,7 @@ def test_a_design_that_buckles_is_a_result(folder, simulated):
 def test_designs_are_measured_again_by_other_code_of_their_structure(folder, simulated, monkeypatch):
     quantities(folder, {"start": None})
     code_of = recipe.code_of
-    monkeypatch.setattr(recipe, "code_of", lambda step: "another" if step == "fem.steps.mesh" else code_of(step))
+    monkeypatch.setattr(recipe, "code_of", lambda step: "another" if step == "r37core.fem.steps.mesh" else code_of(step))
     quantities(folder, {"start": None})
     assert simulated == ["start/abradable", "start/abradable"]
 

@@ -21,16 +21,6 @@ from r37core.product.extensions import read_settings
 from r37core.product.remarks import remarks
 from r37core.results.other_motions import ranking_with_motions, summary_with_motions
 from r37core.rom.contact_model import write_contact_model
-from r37core.second_motions import steps
-from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
-from r37core.second_motions.dataset import dwell_dataset, pair_motions
-from r37core.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
-from r37core.second_motions.figures import draw_second_motions
-from r37core.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
-from r37core.second_motions.plan import finished_runs, results
-from r37core.second_motions.states import MotionLevels, SweptStates, levels_of, motions_differ, read_states, write_states
-from r37core.second_motions.sweeping import CarriedSweep
-from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
 from r37core.stress.statistic import UNKNOWN
 from r37core.time_integration.carrying import END_WEAR
 from r37core.time_integration.integrators import EXACT_MODAL
@@ -39,6 +29,16 @@ from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import OF_RUNS, run_speed
 from r37core.time_integration.status import MotionKind, RunStatus
+from r37studies.second_motions import steps
+from r37studies.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
+from r37studies.second_motions.dataset import dwell_dataset, pair_motions
+from r37studies.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
+from r37studies.second_motions.figures import draw_second_motions
+from r37studies.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
+from r37studies.second_motions.plan import finished_runs, results
+from r37studies.second_motions.states import MotionLevels, SweptStates, levels_of, motions_differ, read_states, write_states
+from r37studies.second_motions.sweeping import CarriedSweep
+from r37studies.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
 
 CHOICE = IntegrationChoice(6.4e-6, 20, 62, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}

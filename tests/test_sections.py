@@ -14,19 +14,20 @@ import r37
 from r37.call_settings import call_of
 from r37.run_folder import write_run
 from r37core.base.plain import to_plain
-from r37core.blade.blade_map import Meridian
-from r37core.blade.definition import SectionsDefinition, shape_from_plain
+from r37core.blade.definition import shape_from_plain
 from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.profile import BladeShapeError, area_and_centroid
 from r37core.blade.section_changes import SpanLaw
 from r37core.config import ConfigError
 from r37core.config.remarks import remarks_of_pipeline
-from r37core.exchange.step_file import write_step
 from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
 from r37core.mesh.generate import generate_mesh
 from r37core.product.extensions import read_settings
 from r37core.rom.reduce import reduce_blade
+from r37imports.sections.definition import SectionsDefinition
+from r37imports.sections.section_blade import Meridian
+from r37studies.step_file import write_step
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 ENTRY = {"length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0], "rotation": "negative", "material": MATERIAL}

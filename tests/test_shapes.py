@@ -7,13 +7,13 @@ import pytest
 import pyvista
 
 from r37core.base.io import read_json, write_json
-from r37core.exchange.fields import Target, WorstInstant, displacement_of, mode_shapes, stress_of, write_modes
 from r37core.fem.surface import outer_faces
 from r37core.figures.style import save
-from r37core.shapes.stills import draw_modes, draw_worst_instants
-from r37core.shapes.worst_shapes import INDEX, LARGEST_SHOWN, write_worst_shapes
 from r37core.stress.operator import von_mises
 from r37core.stress.recovery import stress_operator
+from r37studies.fields import Target, WorstInstant, displacement_of, mode_shapes, stress_of, write_modes
+from r37studies.shapes.stills import draw_modes, draw_worst_instants
+from r37studies.shapes.worst_shapes import INDEX, LARGEST_SHOWN, write_worst_shapes
 
 
 @pytest.fixture(scope="module")

@@ -14,19 +14,19 @@ from test_run_statistics import FREE, SPEED, with_tip
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import InputFileError
-from r37core.exchange.importing.import_mesh import blade_parameters
 from r37core.figures.style import save
 from r37core.results.joining import join_runs
-from r37core.results.tip_timing import arrival_times
 from r37core.rom.recovery_nodes import RecoveryNodes
-from r37core.signals.dataset import RUNS, signals_dataset
-from r37core.signals.figures import draw_contact_forces, draw_tip_timing
-from r37core.signals.record import Record, record_signals, revolutions_of
 from r37core.stress.gauge import Gauge
-from r37core.stress.gauges import gauge_rows
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
+from r37imports.importing.import_mesh import blade_parameters
+from r37studies.gauges import gauge_rows
+from r37studies.signals.dataset import RUNS, signals_dataset
+from r37studies.signals.figures import draw_contact_forces, draw_tip_timing
+from r37studies.signals.record import Record, record_signals, revolutions_of
+from r37studies.tip_timing import arrival_times
 
 
 @pytest.mark.parametrize("element", ("wedge15", "hexahedron20", "tetra10", "wedge", "hexahedron", "tetra"))

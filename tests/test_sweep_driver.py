@@ -32,8 +32,8 @@ from r37core.sweep.driver import Driver
 from r37core.sweep.forks import forked_results
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.step_limit import UnstableStepError
-from r37core.tolerances import steps
-from r37core.tolerances.plan import Tolerances
+from r37studies.tolerances import steps
+from r37studies.tolerances.plan import Tolerances
 
 CHOICE = RefinementChoice(windows=(), prominence=0.1, largest_share=0.6)
 TASK = json.dumps({"height": 1.0})

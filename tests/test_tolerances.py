@@ -19,7 +19,6 @@ from r37core.base.speeds import RefinedRange
 from r37core.config import ConfigError, Document
 from r37core.config.spread import SpreadEntry
 from r37core.figures import style
-from r37core.plans.member_values import sobol_points
 from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
 from r37core.product.remarks import remarks as remarks_of
@@ -28,11 +27,12 @@ from r37core.results.danger import danger_of, ratio_to_yield
 from r37core.results.interactions import find_interactions
 from r37core.results.ranges import as_ranges_bear, ranged_summary, read_ranges
 from r37core.time_integration.status import RunStatus
-from r37core.tolerances.dataset import tolerances_dataset
-from r37core.tolerances.figures import draw_tolerances
-from r37core.tolerances.members import members_of
-from r37core.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
-from r37core.tolerances.table import _matched, range_table, ranges
+from r37studies.member_values import sobol_points
+from r37studies.tolerances.dataset import tolerances_dataset
+from r37studies.tolerances.figures import draw_tolerances
+from r37studies.tolerances.members import members_of
+from r37studies.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
+from r37studies.tolerances.table import _matched, range_table, ranges
 
 
 def test_more_members_change_none_that_are_there():

@@ -25,17 +25,17 @@ from r37core.base.plain import from_plain, to_plain
 from r37core.config import ConfigError, command_line_document, read_document
 from r37core.config.fidelity import recommended_level
 from r37core.plans.extent import extent_of, extents
-from r37core.plans.other_models import MODEL_NAME, OWN_MESH, ModelChoice
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings, simulations_of_members
 from r37core.rom.contact_model import read_contact_model
 from r37core.sweep.parts import Parts
-from r37core.trials import estimate, estimate_tables, runner, stability, stability_tables, steps, tradeoff
-from r37core.trials.case import HALF_STEP, Case
-from r37core.trials.figures import COLOURS, draw_growth, draw_parameter, draw_stability, draw_tradeoff
-from r37core.trials.plan import Trials
-from r37core.trials.tradeoff_tables import QUANTITIES, exponent_of, gather_cases, growth_table, level_table, parameter_table
+from r37studies.other_models import MODEL_NAME, OWN_MESH, ModelChoice
+from r37studies.trials import estimate, estimate_tables, runner, stability, stability_tables, steps, tradeoff
+from r37studies.trials.case import HALF_STEP, Case
+from r37studies.trials.figures import COLOURS, draw_growth, draw_parameter, draw_stability, draw_tradeoff
+from r37studies.trials.plan import Trials
+from r37studies.trials.tradeoff_tables import QUANTITIES, exponent_of, gather_cases, growth_table, level_table, parameter_table
 
 CHOICE = IntegrationChoice(3.2e-6, 4, 62, integrator="exact_modal")
 
@@ -55,7 +55,7 @@ def with_section(root, name, **keys):
 
 def test_cases_are_planned_without_what_runs_them():
     """The rules import the plans each time that Snakemake starts."""
-    code = "import sys, r37core.trials.plan; print(*{'netCDF4', 'matplotlib', 'xarray', 'pyvista'} & set(sys.modules))"
+    code = "import sys, r37studies.trials.plan; print(*{'netCDF4', 'matplotlib', 'xarray', 'pyvista'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == ""
 
@@ -207,7 +207,7 @@ def test_judging_a_case(contact, monkeypatch, tmp_path):
 
 
 def test_a_case_that_the_plan_refuses_is_a_row_of_the_table_without_remedies(tmp_path):
-    params = Named(module="r37core.trials.stability_tables", values={}, reasons={"mesh_nodes_500__direct": "a mesh; more"})
+    params = Named(module="r37studies.trials.stability_tables", values={}, reasons={"mesh_nodes_500__direct": "a mesh; more"})
     steps.report(Named(cases=[]), Named(table=str(tmp_path / "stability.csv")), params)
     (row,) = pd.read_csv(tmp_path / "stability.csv").to_dict("records")
     assert (row["what"], row["value"], row["outcome"], row["detail"]) == ("mesh_nodes", 500, "refused", "a mesh")

@@ -18,11 +18,11 @@ from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
-from r37core.run_ups.plan import RunUps
 from r37core.sweep.blade_sweep import BladeSweep
-from r37core.tolerances.members import members_of
-from r37core.tolerances.plan import Tolerances
-from r37core.trials import estimate
+from r37studies.run_ups.plan import RunUps
+from r37studies.tolerances.members import members_of
+from r37studies.tolerances.plan import Tolerances
+from r37studies.trials import estimate
 
 PLACES = {"blades": ["Ref", "L50"], "scenes": ["abradable", "direct"]}
 

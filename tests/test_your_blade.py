@@ -13,9 +13,9 @@ import yaml
 from stubbed_runs import copy_stubbed, edit
 from workflow_runs import copy_finished, copy_project, overlay, planned_outputs, snakemake
 
-from r37core.config.imported_entry import MeshEntry
-from r37core.exchange.importing.import_mesh import import_mesh
-from r37core.exchange.refusal import ImportRefused
+from r37imports.imported_entry import MeshEntry
+from r37imports.importing.import_mesh import import_mesh
+from r37imports.refusal import ImportRefused
 
 
 def blocks(root, language):

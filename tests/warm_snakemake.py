@@ -35,8 +35,17 @@ COMMON += ("sklearn.gaussian_process", "smart_open", "yaml")
 COMMON += ("snakemake.cli", "snakemake.dag", "snakemake.profiles", "snakemake.storage", "snakemake.report.html_reporter")
 """What Snakemake imports for every plan, and steps as they run; what the rules import is read from them."""
 
-STRUCTURE = ("blade.steps.geometry", "fem.steps.mesh", "exchange.importing.steps.imported_mesh", "rom.steps.reduced_model")
-STRUCTURE += ("rom.steps.contact_model", "stress.steps.stress_operator", "results.steps.campbell_of_blade")
+STRUCTURE = (
+    "r37core.blade.steps.geometry",
+    "r37core.fem.steps.mesh",
+    "r37imports.importing.steps.imported_mesh",
+    "r37core.rom.steps.reduced_model",
+)
+STRUCTURE += (
+    "r37core.rom.steps.contact_model",
+    "r37core.stress.steps.stress_operator",
+    "r37core.results.steps.campbell_of_blade",
+)
 """Steps whose files are shared: see `_share_structures`."""
 
 

@@ -12,8 +12,8 @@ import xarray as xr
 from r37core.base.io import function_named
 from r37core.base.plain import to_plain
 from r37core.config import ConfigError
-from r37core.designs.table import compared_in
 from r37core.results.regions import judged
+from r37studies.designs.table import compared_in
 
 from .run_results import RunResults
 from .stages import checked_call
@@ -38,7 +38,7 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
         'Campbell diagram, blade Ref'
     """
     _check("campbell", campbell, "frequency", "r37.campbell")
-    return _drawn("figures.campbell_diagram.draw_campbell", campbell, title or _label(campbell, "blade"))
+    return _drawn("r37core.figures.campbell_diagram.draw_campbell", campbell, title or _label(campbell, "blade"))
 
 
 @checked_call
@@ -66,7 +66,7 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
     if "speed" not in scenes.dims:
         scenes = scenes.expand_dims("speed")
     stress = scenes if "max_von_mises_median" in scenes else None
-    return _drawn("figures.response_curves.draw_response", name, campbell, scenes, stress)
+    return _drawn("r37core.figures.response_curves.draw_response", name, campbell, scenes, stress)
 
 
 @checked_call
@@ -88,7 +88,9 @@ def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
     if "run" in rotor.dims:
         raise ConfigError("rotor: found several runs; allowed: one, as results.rotor(blade, scene) of r37.open_results has it")
     several = rotor if "speed" in rotor.dims else rotor.expand_dims("speed")
-    return _drawn("rotors.figures.draw_rotor", several, title or f"{_label(rotor, 'blade')}, {_label(rotor, 'scene')}")
+    return _drawn(
+        "r37studies.rotors.figures.draw_rotor", several, title or f"{_label(rotor, 'blade')}, {_label(rotor, 'scene')}"
+    )
 
 
 @checked_call
@@ -115,7 +117,7 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
     if len(pairs) > 1:
         raise ConfigError(f"run_ups: found runs of {', '.join(map(' in '.join, pairs))}; allowed: of one blade in one scene")
     ((blade, scene),) = pairs
-    return _drawn("run_ups.figures.draw_run_ups", several, title or f"{blade}, {scene}", blade=blade, scene=scene)
+    return _drawn("r37studies.run_ups.figures.draw_run_ups", several, title or f"{blade}, {scene}", blade=blade, scene=scene)
 
 
 @checked_call
@@ -142,7 +144,7 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
         known = f"{', '.join(map(str, tolerances['blade'].values))} in {', '.join(map(str, tolerances['scene'].values))}"
         raise ConfigError(f"tolerances: found none of {blade} in {scene}; allowed: {known}")
     spread, response = tolerances.sel(blade=blade, scene=scene), results.response(blade, scene)
-    return _drawn("tolerances.figures.draw_tolerances", spread, response, title or f"{blade}, {scene}")
+    return _drawn("r37studies.tolerances.figures.draw_tolerances", spread, response, title or f"{blade}, {scene}")
 
 
 @checked_call
@@ -169,7 +171,7 @@ def plot_designs(results: RunResults, title: str | None = None, *, family: str |
     if name not in families:
         raise ConfigError(f"family: found {name!r}; allowed: {', '.join(families)}")
     draw = "maps.draw_design_map" if len(families[name].keys) == 2 else "figures.draw_designs"
-    return _drawn(f"designs.{draw}", title or name, table, to_plain(families[name]))
+    return _drawn(f"r37studies.designs.{draw}", title or name, table, to_plain(families[name]))
 
 
 def _drawn(drawing: str, *arguments: Any, **more: Any) -> Figure:
@@ -183,7 +185,7 @@ def _drawn(drawing: str, *arguments: Any, **more: Any) -> Figure:
         from r37core.figures.style import PARAMETERS
 
         plt.rcParams.update(PARAMETERS)
-        return function_named(f"r37core.{drawing}")(*arguments, **more)
+        return function_named(drawing)(*arguments, **more)
 
 
 def _check(argument: str, dataset: xr.Dataset, needed: str, call: str) -> None:

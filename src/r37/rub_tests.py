@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config import ConfigError
-from r37core.rub_tests.lining_fit import LiningFit, fit_lining
-from r37core.rub_tests.rig_table import read_rub_test
+from r37studies.measured.rub_tests.lining_fit import LiningFit, fit_lining
+from r37studies.measured.rub_tests.rig_table import read_rub_test
 
 from .arguments import number
 from .call_configuration import read_configuration

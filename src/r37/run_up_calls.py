@@ -14,11 +14,11 @@ from r37core.base.io import Named, scratch_folder
 from r37core.config import ConfigError
 from r37core.plans.provenance import Provenance
 from r37core.plans.sweep_plan import Sweep
-from r37core.run_ups.dataset import write_run_ups
-from r37core.run_ups.plan import RunUps
-from r37core.run_ups.section import RunUpEntry
 from r37core.sweep.blade_sweep import CAMPBELL
 from r37core.sweep.recipe import run_step
+from r37studies.run_ups.dataset import write_run_ups
+from r37studies.run_ups.plan import RunUps
+from r37studies.run_ups.section import RunUpEntry
 
 from .arguments import keys_of_its_own, plain_value
 from .calculation import Calculation

@@ -13,11 +13,11 @@ from r37core.base.varied_number import KINDS, values_of
 from r37core.config import ConfigError
 from r37core.config.scenes import OF_ONE_BLADE
 from r37core.plans.paths import fill
-from r37core.rotors.plan import ROTOR_OF_RUN
-from r37core.search.designs import FOLDER
-from r37core.search.plan import DATASET, TABLE
-from r37core.search.section import SearchSection
-from r37core.tolerances.members import ToleranceSection
+from r37studies.rotors.plan import ROTOR_OF_RUN
+from r37studies.search.designs import FOLDER
+from r37studies.search.plan import DATASET, TABLE
+from r37studies.search.section import SearchSection
+from r37studies.tolerances.members import ToleranceSection
 
 from .arguments import Speeds, keys_of_its_own, mapping, plain_value, speed_keys
 from .call_settings import base_of, call_of, chosen_blade, chosen_scene, names_of_their_own, several

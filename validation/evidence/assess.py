@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from r37core.requirements.table import closing
+from r37studies.requirements.table import closing
 
 from .tables import write_table
 

@@ -50,7 +50,7 @@ class Models:
 def mesh_of(settings: Settings, blade: str) -> BladeMesh:
     """Mesh of a blade at the level of the settings."""
     mesh = settings.fidelity.mesh
-    return generate_mesh(settings.blades[blade].definition.build(round_edges=True), mesh.nodes, mesh.layers, mesh.tip_elements)
+    return generate_mesh(settings.blades[blade].shape.build(round_edges=True), mesh.nodes, mesh.layers, mesh.tip_elements)
 
 
 def reduced_model(

@@ -20,11 +20,11 @@ from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model
 from r37core.rom.reduction_choice import PATCHES
-from r37core.run_ups.choice import RunUp
-from r37core.run_ups.integration import RunUpIntegration
-from r37core.run_ups.revolutions import record_run_up
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.speed_run import run_speed
+from r37studies.run_ups.choice import RunUp
+from r37studies.run_ups.integration import RunUpIntegration
+from r37studies.run_ups.revolutions import record_run_up
 
 from .paper_box import BOX, box_operator
 
@@ -43,7 +43,7 @@ def measured(root: Path) -> Numbers:
     """The numbers, in nine digits: name of a kind of run -> quantity with its unit -> value."""
     settings = settings_of(root, scenes="all")
     blade, tip_line = settings.blades[_BLADE], settings.structure.boundary.tip_line
-    mesh = generate_mesh(blade.definition.build(round_edges=True), **_MESH)
+    mesh = generate_mesh(blade.shape.build(round_edges=True), **_MESH)
     matrices, boundary = assemble(mesh, blade.material), settings.boundary_choice(_BLADE)
     reduction, regions = settings.reduction_choice(_BLADE), settings.stress_regions(_BLADE)
     model = reduce_blade(mesh, matrices, blade.material, boundary, reduction, regions)

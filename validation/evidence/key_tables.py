@@ -14,12 +14,12 @@ from typing import Any, NamedTuple
 from r37core.base.io import write_text
 from r37core.base.units import SUFFIXES
 from r37core.config.speed_section import UNITS
-from r37core.designs.table import MEASURES
 from r37core.product.schemas import MODELS
 from r37core.results.columns import CHANCE, IN_REGION, OPERATING, RANGED, RANKING, SUMMARY, column_named, names
 from r37core.results.ranges import COLUMNS as TOLERANCES
 from r37core.results.ranking import RANKED_BY
-from r37core.second_motions.tables import RANGE_COLUMNS, RANGES
+from r37studies.designs.table import MEASURES
+from r37studies.second_motions.tables import RANGE_COLUMNS, RANGES
 
 from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
 from .keys_again import Shown, ShownModels

@@ -232,7 +232,7 @@ def cells(pairs: Sequence[tuple[Bent, Bent]]) -> list[str]:
 def decay(input: Any, output: Any, params: Any) -> None:
     """Table of a blade that is let go. Params: configuration, blade."""
     settings = settings_of(Path.cwd(), **params.configuration, fidelity="draft")
-    mesh = generate_mesh(settings.blades[params.blade].definition.build(round_edges=True), **COARSE)
+    mesh = generate_mesh(settings.blades[params.blade].shape.build(round_edges=True), **COARSE)
     ours = FreeBlade(settings, params.blade, mesh, 8e-7)
     load = ours.inertia_of_first_mode()
     size, period = ours.size(load, BENT[0]), 2.0 * np.pi / float(ours.simulation.problem.blade.frequencies[0])

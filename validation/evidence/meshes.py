@@ -9,9 +9,6 @@ import numpy as np
 from published import INTERACTIONS, REFERENCE
 
 from r37core.config import Settings
-from r37core.config.imported_entry import MeshEntry
-from r37core.exchange.importing.import_mesh import import_mesh
-from r37core.exchange.step_file import write_step
 from r37core.fem.matrices import StructuralMatrices, assemble
 from r37core.fem.solver import lowest_modes
 from r37core.mesh.blade_mesh import BladeMesh
@@ -20,6 +17,9 @@ from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model
 from r37core.time_integration.speed_run import run_speed
+from r37imports.imported_entry import MeshEntry
+from r37imports.importing.import_mesh import import_mesh
+from r37studies.step_file import write_step
 
 from .configuration import settings_of
 from .mesh_step import mesh_step
@@ -54,7 +54,7 @@ def density(input: Any, output: Any, params: Any) -> None:
     settings, rows = settings_of(Path.cwd()), []
     chosen = settings.blades[REFERENCE]
     for case in DENSITIES:
-        shape = chosen.definition.build(round_edges=case.edges == "round")
+        shape = chosen.shape.build(round_edges=case.edges == "round")
         mesh = generate_mesh(shape, case.nodes, case.layers, case.tip_elements)
         matrices = assemble(mesh, chosen.material)
         crossings = _crossings(_reduced(settings, REFERENCE, mesh, matrices), list(PUBLISHED))
@@ -90,7 +90,7 @@ def remeshed(input: Any, output: Any, params: Any) -> None:
     settings, rows = settings_of(Path.cwd()), []
     level = settings.fidelity.mesh
     for blade in params.blades:
-        shape = settings.blades[blade].definition.build(round_edges=True)
+        shape = settings.blades[blade].shape.build(round_edges=True)
         with tempfile.TemporaryDirectory() as folder:
             write_step(shape, Path(folder) / "surface.step")
             meshes = {element: _imported(element, Path(folder)) for element in ELEMENTS}

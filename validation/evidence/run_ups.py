@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from r37core.run_ups.tables import safe_rates
+from r37studies.run_ups.tables import safe_rates
 
 from .tables import write_table
 

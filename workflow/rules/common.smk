@@ -34,9 +34,9 @@ TEXTS = ROOT / "workflow" / "report"
 
 console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
-PACKAGE = console.source / "r37core"
-code = CodeHashes(console.source, SCRIPTS)
-# parameters of rules: a step, which is a function of r37core, and the hash of its code
+SOURCE = console.source
+code = CodeHashes(SOURCE, SCRIPTS)
+# parameters of rules: a step, which is a function of a package, and the hash of its code
 step = code.step
 made = Provenance(settings)
 structure = Structure(settings)
@@ -51,7 +51,7 @@ stages = structure_stages(structure, made)
 
 def stage(made: Stage):
     """Parameters of the rule of a stage that Python's single calls do, too (r37core.plans.stages)."""
-    return {**step(made.step), **made.params}
+    return {**step(made.step, *made.modules), **made.params}
 
 
 def shown(file, text, category, figure, subcategory=EVERY_SCENE):

@@ -1,9 +1,10 @@
-# Rules of each extension, and one more that makes all of it and nothing else: snakemake run_ups
-from r37core.product.extensions import EXTENSIONS, FOLDERS
+# Rules of the optional packages, and one more for each extension that makes all of it and nothing else: snakemake run_ups
+from r37core.base.packages import registered
+from r37core.product.extensions import EXTENSIONS
 
-for folder in FOLDERS:
+for file in registered("RULES").values():
 
-    include: f"{folder}.smk"
+    include: file
 
 
 for extension in EXTENSIONS:

@@ -41,7 +41,7 @@ use rule step as blade_shapes_figure with:
     log:
         "<logs>/figures/blades.log",
     params:
-        **step("figures.steps.blade_shapes"),
+        **step("r37core.figures.steps.blade_shapes"),
         blades=shaped,
         caption=BLADES,
 

@@ -10,7 +10,7 @@ use rule step as configuration with:
         "<logs>/configuration.log",
     priority: 20
     params:
-        **step("results.steps.configuration"),
+        **step("r37core.results.steps.configuration"),
         merged=merged_settings(settings),
 
 
@@ -34,7 +34,7 @@ use rule step as sweep_dataset with:
     wildcard_constraints:
         kind="|".join(sweep.kinds),
     params:
-        **step("results.steps.sweep_dataset"),
+        **step("r37core.results.steps.sweep_dataset"),
         kind="{kind}",
         runs=lambda wildcards: sweep.runs_with(wildcards.kind),
         fidelity=settings.fidelity_name,
@@ -55,7 +55,7 @@ use rule step as summary with:
     log:
         "<logs>/summary.log",
     params:
-        **step("results.steps.summary"),
+        **step("r37core.results.steps.summary"),
         choice=plain(settings.config.interactions),
 
 
@@ -70,7 +70,7 @@ use rule step as ranking with:
     log:
         "<logs>/ranking.log",
     params:
-        **step("results.steps.ranking"),
+        **step("r37core.results.steps.ranking"),
         runs=sweep.runs_with("rms"),
         errors=level_errors(settings, sweep.runs_with("rms")),
         operating=operating,
@@ -85,12 +85,12 @@ use rule step as coincidences with:
     log:
         "<logs>/coincidences.log",
     params:
-        **step("results.steps.coincidences"),
+        **step("r37core.results.steps.coincidences"),
         casings=to_plain(elastic_casings(settings)),
 
 
 shown_panels = panels(sweep)
-programs = [str(PACKAGE / panel.program) for panel in shown_panels.values()]
+programs = [str(SOURCE / panel.program) for panel in shown_panels.values()]
 
 
 use rule step as explorer with:
@@ -106,8 +106,8 @@ use rule step as explorer with:
     log:
         "<logs>/explorer.log",
     params:
-        **step("explorer.steps.explorer", *(panel.contents.rpartition(".")[0] for panel in shown_panels.values())),
-        panels={name: f"r37core.{panel.contents}" for name, panel in shown_panels.items()},
+        **step("r37core.explorer.steps.explorer", *(panel.contents.rpartition(".")[0] for panel in shown_panels.values())),
+        panels={name: panel.contents for name, panel in shown_panels.items()},
         programs=programs,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         operating=operating,

@@ -1,8 +1,4 @@
-# Blade shape -> mesh -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
-# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there.
-from r37core.blade.definition import Shape
-from r37core.exchange.importing.source import MatricesSource, MeshSource
-
+# Blade shape -> mesh -> reduced model -> Campbell diagram, for each blade.
 # memory of a reduced model (MB): half more than was measured
 memory_of_model = 200 + round(0.075 * settings.fidelity.mesh.nodes)
 
@@ -13,7 +9,7 @@ use rule step as geometry with:
     log:
         "<logs>/{blade}/geometry.log",
     wildcard_constraints:
-        blade=structure.pattern(Shape),
+        blade=structure.pattern("geometry"),
     # an impossible shape should stop the run before any long work
     priority: 10
     params:
@@ -29,27 +25,11 @@ use rule step as mesh with:
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
-        blade=structure.pattern(Shape),
+        blade=structure.pattern("mesh"),
     # a mesh or model that fails should do so before the first simulation
     priority: 2
     params:
         **stage(stages["mesh"]),
-
-
-use rule step as imported_mesh with:
-    input:
-        structure.files,
-    output:
-        msh=rules.mesh.output.msh,
-        vtu=paths.MESH,
-    log:
-        "<logs>/{blade}/mesh.log",
-    wildcard_constraints:
-        blade=structure.pattern(MeshSource),
-    # an unsuitable mesh, like an impossible shape, should stop the run before any long work
-    priority: 10
-    params:
-        **stage(stages["imported_mesh"]),
 
 
 use rule step as reduced_model with:
@@ -60,7 +40,7 @@ use rule step as reduced_model with:
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
-        blade=structure.pattern(Shape, MeshSource),
+        blade=structure.pattern("reduced_model"),
     priority: 2
     resources:
         mem_mb=memory_of_model,
@@ -78,22 +58,6 @@ use rule reduced_model as whole_blade_model with:
     params:
         reduction=lambda wildcards: {**structure.reduction(wildcards), "recover_whole_blade": True},
         kept=False,
-
-
-use rule step as imported_matrices with:
-    input:
-        structure.files,
-    output:
-        rom=paths.REDUCED_MODEL,
-    log:
-        "<logs>/{blade}/reduced_model_{tip_line}.log",
-    wildcard_constraints:
-        blade=structure.pattern(MatricesSource),
-    priority: 10
-    resources:
-        mem_mb=memory_of_model,
-    params:
-        **stage(stages["imported_matrices"]),
 
 
 use rule step as campbell_of_blade with:
@@ -115,6 +79,6 @@ use rule step as campbell_of_all with:
     log:
         "<logs>/campbell_of_all.log",
     params:
-        **step("results.steps.campbell_of_all"),
+        **step("r37core.results.steps.campbell_of_all"),
         blades=list(settings.blades),
         fidelity=settings.fidelity_name,

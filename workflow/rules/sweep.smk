@@ -36,7 +36,7 @@ use rule step as prepare_time_integration with:
     # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
     params:
-        **step("time_integration.speed_job.prepare"),
+        **step("r37core.time_integration.speed_job.prepare"),
         scene=sweep.plain_scene,
         speed=settings.structure.maximum_speed_rad_s,
         choice=sweep.choice_of_scene,
@@ -55,7 +55,7 @@ use rule step as simulate with:
     resources:
         mem_mb=300,
     params:
-        **step("time_integration.speed_job.simulate"),
+        **step("r37core.time_integration.speed_job.simulate"),
         # one parameter, as Snakemake takes a millisecond to ask for each
         job=lambda wildcards: {"speed": wildcards.speed, "task": sweep.task(wildcards)},
         about=made.sweep,
@@ -83,7 +83,7 @@ checkpoint refine:
     resources:
         mem_mb=500,
     params:
-        **step("adaptive.steps.refine"),
+        **step("r37core.adaptive.steps.refine"),
         plan=lambda wildcards: to_plain(sweep.speed_plan(wildcards)),
         choice=sweep.refinement_choice,
         yield_stress=sweep.yield_stress,
@@ -100,7 +100,7 @@ use rule step as response with:
         "<logs>/{blade}/{scene}/response.log",
     priority: 5
     params:
-        **step("results.steps.response"),
+        **step("r37core.results.steps.response"),
         speeds=sweep.speeds,
         stress_history_speeds=sweep.stress_history_speeds,
         yield_stress=sweep.yield_stress,

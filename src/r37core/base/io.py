@@ -57,6 +57,12 @@ def _same_error(kind: type[CarriedError], args: tuple[Any, ...], attributes: dic
     return error
 
 
+class EntryRefused(CarriedError):
+    """A description of a blade that cannot be used; `key`: of its entry in blades.yaml, whose value is to blame."""
+
+    key: str | None = None
+
+
 class TextFileError(CarriedError):
     """Something that a text file of a user must not hold: `reason`, and the number of the `line`."""
 

@@ -4,7 +4,7 @@ Source: section 2 of the benchmark; Piollet, Nyssen, Batailly, "Blade/casing rub
 engines: numerical benchmark and design guidelines based on NASA rotor 37".
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -63,6 +63,11 @@ class ProfileParameters:
                     f"{self.label}: {name} is {getattr(self, name):g} m; it must lie between 0 and outlet_axial "
                     f"({self.outlet_axial:g} m)"
                 )
+
+
+PARAMETER_UNITS = dict.fromkeys((field.name for field in fields(ProfileParameters)), "m")
+PARAMETER_UNITS |= {"span": "1", "inlet_angle": "rad", "transition_angle": "rad", "outlet_angle": "rad"}
+"""Units of the parameters."""
 
 
 @dataclass(frozen=True)

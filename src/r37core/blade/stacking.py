@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import scipy
 
+from .cone import Cone
 from .profile import BladeShapeError, Profile, area_and_centroid
-from .section_curve import SectionCurve
 
 _TOLERANCE = 1e-9  # m
 _POINTS_PER_SIDE = 400
@@ -141,7 +142,23 @@ def sweep_and_lean(spans: np.ndarray, table: np.ndarray) -> Placement:
     return Placement(sweep, -lean)
 
 
-def chordwise_sweep(profiles: Sequence[Profile] | Sequence[SectionCurve], angle: float) -> Placement:
+class PlacedSection(Protocol):
+    """A profile, or another section: its cone, its centre of area (m, theta) on that, and its stagger angle (rad)."""
+
+    @property
+    def cone(self) -> Cone:
+        """Cone that it lies on."""
+
+    @property
+    def centroid(self) -> tuple[float, float]:
+        """Centre of area."""
+
+    @property
+    def stagger(self) -> float:
+        """Stagger angle."""
+
+
+def chordwise_sweep(profiles: Sequence[PlacedSection], angle: float) -> Placement:
     """Placement of profiles or sections (hub to tip) for a chordwise sweep by `angle` (rad), positive forward.
 
     Source: section 2 of the benchmark: axial sweep -tan(angle) (r - r_hub) cos(stagger) and lean

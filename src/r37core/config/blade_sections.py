@@ -34,6 +34,10 @@ class MaterialSection(Section):
     """Isotropic material; the base gives what is left out."""
 
 
+MATERIAL = "material."
+MATERIAL_KEYS = tuple(MATERIAL + key for key in MaterialSection.model_fields)
+"""Numbers of a blade's material."""
+
 REQUIRED_OF_MATERIAL = tuple(declared.name for declared in declared_keys(Material) if not declared.key.optional)
 """Keys that a material has, its own or of its base."""
 

@@ -1,30 +1,32 @@
-"""blades.yaml: blades by their shape, mesh or matrices, and their materials."""
+"""blades.yaml: blades by profiles, a base or another kind of entry, and their materials."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import cache, reduce
+from operator import or_
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Discriminator, Field, RootModel, Tag
 
-from r37core.base.io import TextFileError
-from r37core.blade.definition import BladeDefinition, Shape
+from r37core.base.io import EntryRefused, TextFileError
+from r37core.blade.definition import BladeDefinition, Definition, Shape
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, read_profile_table, stacking_rows, stacking_table_rows
 from r37core.blade.section_changes import SectionChangeError
 from r37core.blade.sense import check_profile_sense
-from r37core.exchange.importing.source import MatricesSource, MeshSource
-from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
 from r37core.rom.reduction_choice import PATCHES, QUADRATIC
 from r37core.rom.region_choice import RegionChoice
 from r37core.stress.statistic import Strengths
 
+from .blade_kind import BladeKind, blade_kinds
 from .blade_sections import (
     CONTACT_IN_WORDS,
     KINEMATICS_IN_WORDS,
+    MATERIAL_KEYS,
     REQUIRED_OF_MATERIAL,
     Contact,
     Kinematics,
@@ -35,10 +37,8 @@ from .blade_sections import (
 )
 from .declaring import si_fields, si_form
 from .document import ConfigError, Document, chain_of_bases
-from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
-from .sections_entry import SectionsEntry
-from .shape_keys import SECTION_KEYS, SHARES, SHIFTS, ShapeKeys, changed_keys, section_laws, shape_by_laws
+from .shape_keys import END_KEYS, SECTION_KEYS, SHARES, SHIFTS, ShapeKeys, changed_keys, section_laws, shape_by_laws
 from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
 
 
@@ -54,6 +54,9 @@ class BladeEntry(ShapeKeys, GivenShape):
 
     With `vary` or `designs` it is a family, many blades that differ in some numbers.
     """
+
+    # as of BladeKind, and numbers in rows of a table
+    varied: ClassVar[tuple[str, ...]] = ("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *END_KEYS, *MATERIAL_KEYS)
 
     contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}; by default that of the base, without one patches")
     kinematics: Kinematics | LeftOut = left_out(f"{KINEMATICS_IN_WORDS}; by default that of the base, without one quadratic")
@@ -73,32 +76,30 @@ class BladeEntry(ShapeKeys, GivenShape):
             raise refused((), "neither profiles nor base", "one of them, or sections, or a mesh or matrices of another program")
 
 
-def _kind(value: Any) -> str:
-    """Which model an entry is for: what it is given by decides."""
-    if isinstance(value, BladeEntry | MeshEntry | MatricesEntry | SectionsEntry):
-        return type(value).__name__
-    kinds = {"mesh": "MeshEntry", "matrices": "MatricesEntry", "sections": "SectionsEntry"}
-    return next((kind for key, kind in kinds.items() if isinstance(value, dict) and key in value), "BladeEntry")
+@cache
+def blades_model() -> type[RootModel[dict[str, Any]]]:
+    """Model of blades.yaml: entries by name, each of the kind that its keys tell."""
+    kinds = blade_kinds()
 
+    def kind_of(value: Any) -> str:
+        """Name of the model of an entry, which messages know it by."""
+        keys = value if isinstance(value, dict) else {getattr(value, "key", "")}
+        return next((kind.__name__ for key, kind in kinds.items() if key in keys), BladeEntry.__name__)
 
-Entry = Annotated[
-    Annotated[BladeEntry, Tag("BladeEntry")]
-    | Annotated[MeshEntry, Tag("MeshEntry")]
-    | Annotated[MatricesEntry, Tag("MatricesEntry")]
-    | Annotated[SectionsEntry, Tag("SectionsEntry")],
-    Discriminator(_kind),
-]
+    entries = [Annotated[kind, Tag(kind.__name__)] for kind in (BladeEntry, *kinds.values())]
+    entry: Any = Annotated[reduce(or_, entries), Discriminator(kind_of)] if kinds else BladeEntry
 
+    class Blades(RootModel[ByName[entry]]):
+        """blades.yaml, blades by name."""
 
-class Blades(RootModel[ByName[Entry]]):
-    """blades.yaml, blades by name."""
+    return Blades
 
 
 @dataclass(frozen=True)
 class BladeSettings:
     """One blade: what gives its shape, its material (none for matrices), contact, kinematics, own regions of stress."""
 
-    definition: Shape | MeshSource | MatricesSource
+    definition: Definition
     material: fem_material.Material | None
     contact: str
     kinematics: str
@@ -110,9 +111,15 @@ class BladeSettings:
         return isinstance(self.definition, Shape)
 
     @property
+    def shape(self) -> Shape:
+        """The definition of a blade that has profiles."""
+        assert isinstance(self.definition, Shape)
+        return self.definition
+
+    @property
     def is_matrices(self) -> bool:
         """True if it is given by matrices, so that it has one model and no stress."""
-        return isinstance(self.definition, MatricesSource)
+        return self.material is None
 
     @property
     def yield_stress(self) -> float:
@@ -142,30 +149,33 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     """
     chain = chain_of_bases(name, lambda link: getattr(entries[link], "base", None), entries, document, "blade")
     first, entry = chain[0], entries[chain[0]]
-    if isinstance(entry, MatricesEntry):
+    check_sense = all(entries[link].sense_check for link in chain)
+    if isinstance(entry, BladeKind) and not entry.with_material:
         if len(chain) > 1:
-            raise document.refusal((chain[1], "base"), f"'{first}', a blade of matrices", "a blade with profiles or a mesh")
-        return BladeSettings(_source(entry, first, root, document), None, entry.contact, entry.kinematics)
+            raise document.refusal((chain[1], "base"), f"'{first}', a blade of {entry.key}", "a blade with profiles or a mesh")
+        definition = _described(entry, first, root, document, check_sense)
+        return BladeSettings(definition, None, entry.contact, entry.kinematics)
     material = _material(chain, entries, document)
     contact, kinematics = (
         getattr(entries[link_with(key, chain, entries)], key) or otherwise
         for key, otherwise in (("contact", PATCHES), ("kinematics", QUADRATIC))
     )
-    # sections have the regions of config.yaml alone
+    # some kinds have the regions of config.yaml alone
     own = (getattr(entries[link], "stress_regions", None) for link in reversed(chain))
     regions = chosen_regions(next(filter(None, own), {}))
-    if isinstance(entry, MeshEntry):
+    if isinstance(entry, BladeKind) and not entry.with_shape:
         for link in chain[1:]:
             keys = [key for key in (*SHIFTS, *SHARES, *SECTION_KEYS) if getattr(entries[link], key) is not None]
             if keys := keys if entries[link].sense_check else [*keys, "sense_check"]:
                 raise document.refusal(
-                    (link, keys[0]), f"{keys[0]} with the mesh of {first}", "another material, no other shape"
+                    (link, keys[0]), f"{keys[0]} with the {entry.key} of {first}", "another material, no other shape"
                 )
         try:
             material.check_units()
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
-        return BladeSettings(_source(entry, first, root, document), material, contact, kinematics, regions)
+        definition = _described(entry, first, root, document, check_sense)
+        return BladeSettings(definition, material, contact, kinematics, regions)
     shift: dict[str, Any] = {}
     place = name, "base"
     for link in chain:
@@ -174,7 +184,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
                 place = link, key
                 shift = _shift(link, key, getattr(entries[link], key), root, document)
         shift = _scaled(link, entries[link], shift, document)
-    shape = replace(_shape(chain, entries, root, document), name=name, **shift)
+    shape = _shape(entry, first, root, document, check_sense).replaced(name=name, **shift)
     for link in chain:
         shape = _changed(link, entries[link], shape, document)
     try:
@@ -184,21 +194,24 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     return BladeSettings(shape, material, contact, kinematics, regions)
 
 
-def _shape(chain: Sequence[str], entries: Mapping[str, Any], root: Path, document: Document) -> Shape:
-    """Profiles or sections of the first entry of a chain of bases, whose sense each of them may leave unchecked."""
-    first, check_sense = chain[0], all(entries[link].sense_check for link in chain)
-    entry = entries[first]
-    if isinstance(entry, SectionsEntry):
-        with readable_table(entry.sections, (first, "sections"), document):
-            try:
-                return entry.definition(first, root, check_sense)
-            except ImportRefused as error:
-                raise document.error((first, error.key or "sections"), str(error)) from None
+def _shape(entry: Any, first: str, root: Path, document: Document, check_sense: bool) -> Shape:
+    """Shape of the first entry of a chain of bases, whose sense each of them may leave unchecked."""
+    if isinstance(entry, BladeKind):
+        return _described(entry, first, root, document, check_sense)
     with readable_table(entry.profiles, (first, "profiles"), document):
         profiles = tuple(read_profile_table(root / entry.profiles))
         if check_sense:
             check_profile_sense(profiles[-1])
     return BladeDefinition(first, profiles)
+
+
+def _described(entry: BladeKind, name: str, root: Path, document: Document, check_sense: bool) -> Any:
+    """The definition that an entry of another kind gives, with its files found."""
+    with readable_table(getattr(entry, entry.key), (name, entry.key), document):
+        try:
+            return entry.definition(name, root, check_sense)
+        except EntryRefused as error:
+            raise document.error((name, error.key or entry.key), str(error)) from None
 
 
 def link_with(key: str, chain: Sequence[str], entries: Mapping[str, Any]) -> str:
@@ -213,18 +226,6 @@ def _changed(blade: str, entry: ShapeKeys, shape: Shape, document: Document) -> 
     except SectionChangeError as error:
         keys = changed_keys(error)
         raise document.error((blade, keys[0]), f"blade {blade}: {' and '.join(keys)}: {error}") from None
-
-
-def _source(entry: MeshEntry | MatricesEntry, name: str, root: Path, document: Document) -> MeshSource | MatricesSource:
-    """Mesh or matrices to import, with directions checked and files found."""
-    try:
-        entry.orientation().check()
-        return entry.source(root)
-    except ImportRefused as error:
-        raise document.error((name, error.key or "mesh"), str(error)) from None
-    except OSError as error:
-        key = "mesh" if isinstance(entry, MeshEntry) else "matrices"
-        raise document.error((name, key), f"{error.filename or getattr(entry, key)} cannot be read: {error.strerror}") from None
 
 
 def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Document) -> fem_material.Material:

@@ -18,7 +18,7 @@ from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
 
 from . import shape_keys
-from .blade_sections import MaterialSection
+from .blade_sections import MATERIAL, MATERIAL_KEYS
 from .blades import BladeEntry, BladeSettings
 from .declaring import si_fields
 from .document import Document
@@ -29,11 +29,6 @@ from .varied import FAMILY_KEYS
 
 E = TypeVar("E", bound=Section)
 Stacking = tuple[tuple[float, float, float], ...] | None
-
-_MATERIAL = "material."
-
-MATERIAL_KEYS = tuple(_MATERIAL + key for key in MaterialSection.model_fields)
-"""Numbers of a blade's material."""
 
 _LINE = ("sweep_cm", "lean_deg")
 """Sweep and lean that are added at the tip, and below in proportion to the span."""
@@ -65,8 +60,8 @@ def scene_numbers(entry: SceneEntry) -> dict[str, float]:
 
 def blade_number(blade: BladeSettings, key: str) -> float | None:
     """Nominal value of one of BLADE_KEYS in its unit, None if a blade has none; ValueError for shifts of a chordwise sweep."""
-    if key.startswith(_MATERIAL):
-        value = math.inf if blade.material is None else getattr(blade.material, si_name(key.removeprefix(_MATERIAL))[0])
+    if key.startswith(MATERIAL):
+        value = math.inf if blade.material is None else getattr(blade.material, si_name(key.removeprefix(MATERIAL))[0])
         return value if math.isfinite(value) else None
     shape = blade.definition
     if not isinstance(shape, Shape) or (key in shape_keys.SHARES and shape.stacking is None):
@@ -127,7 +122,7 @@ def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSe
             check_sweep(stacking or (), definition.height)
         except BladeShapeError as error:
             raise ImpossibleValueError(BLADE, next((key for key in shape if "sweep" in key), shape[0]), str(error)) from None
-        changed = replace(changed, definition=replace(definition, stacking=stacking))
+        changed = replace(changed, definition=definition.replaced(stacking=stacking))
     return changed
 
 

@@ -14,30 +14,23 @@ from r37core.base.varied_number import BLADE, SCENE, numbers_in
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import read_designs
 
+from .blade_kind import BladeKind
 from .blades import BladeEntry, readable_table
-from .changed_numbers import MATERIAL_KEYS, ImpossibleValueError, entry_with
+from .changed_numbers import ImpossibleValueError, entry_with
 from .document import ConfigError, Document
-from .imported_entry import MatricesEntry, MeshEntry
 from .messages import did_you_mean, single_line
 from .named_files import named_file
 from .scenes import SceneEntry
-from .section import check_name, check_names, plain
-from .sections_entry import SectionsEntry
-from .shape_keys import END_KEYS, SECTION_KEYS, SHARES
+from .section import Section, check_name, check_names, plain
 from .varied import FAMILY_KEYS, LARGEST_FAMILY, Variation, is_family
 
-AnyEntry = BladeEntry | MeshEntry | MatricesEntry | SectionsEntry | SceneEntry
+AnyEntry = BladeEntry | BladeKind | SceneEntry
 """One blade or scene, or one family."""
 
 E = TypeVar("E", bound=AnyEntry)
 
-_KINDS: dict[Any, str] = {BladeEntry: BLADE, SectionsEntry: BLADE, SceneEntry: SCENE}
-"""Entries that may be a family, and what they are called."""
-
-_PROFILES = ("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *END_KEYS, *MATERIAL_KEYS)
-_SECTIONS = (*(key for key in _PROFILES if not key.startswith(SECTION_KEYS[1:])), "sweep_lean", "length_unit")
-VARIED: Mapping[Any, tuple[str, ...]] = {BladeEntry: _PROFILES, SectionsEntry: (*_SECTIONS, "hub.radius_m", "tip.radius_m")}
-"""Keys of blades with a number that may vary in a family, besides those in rows of a table; sections have no arcs to change."""
+_KINDS: dict[type[Section], str] = {BladeEntry: BLADE, SceneEntry: SCENE}
+"""Entries of the two files, and what they are called."""
 
 
 @dataclass(frozen=True)
@@ -126,7 +119,7 @@ def _check_names(designs: Designs[E]) -> None:
 
 
 def _kind(entry: Any) -> str:
-    return next(kind for model, kind in _KINDS.items() if isinstance(entry, model))
+    return SCENE if isinstance(entry, SceneEntry) else BLADE
 
 
 def _family(name: str, entry: Any, root: Path, document: Document) -> Family:
@@ -180,8 +173,8 @@ def design_entry(family: str, entry: E, values: Mapping[str, float], design: str
 def _check_varies(key: str, family: str, entry: Any, design: str, document: Document) -> None:
     """ConfigError for a key that does not begin like one that an entry may vary."""
     first, keys = key.split(".")[0], type(entry).model_fields
-    known = VARIED.get(type(entry)) or tuple(numbers_in(plain(entry)))
-    vary = {name.split(".")[0] for name in known} if isinstance(entry, SectionsEntry) else keys
+    known = numbers_in(plain(entry)) if isinstance(entry, SceneEntry) else entry.varied
+    vary = {name.split(".")[0] for name in known} if isinstance(entry, BladeKind) else keys
     if first in vary and first not in FAMILY_KEYS:
         return
     hint = did_you_mean(key, known)

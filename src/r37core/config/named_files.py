@@ -8,20 +8,23 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from .sections_entry import ASKED, OWN
+from .blade_kind import blade_kinds
 
 CONFIG_FILES = ("blades_file", "fidelity_file", "scenes_file")
 SECTION_FILES = {"measured": ("file",), "tolerances": ("drawn_file",), "calibrate": ("rub_test",)}
 """Sections of config.yaml, or lists of them -> their keys with names of files."""
 
-TABLES, IMPORTED = ("profiles", "stacking_table", "designs"), ("mesh", "matrices", "sections")
-"""Keys of blades with tables, and with files of other programs, which may be large or belong to others."""
+TABLES = ("profiles", "stacking_table", "designs")
+"""Keys of blades with tables; those of other kinds of blades may be large, or belong to others."""
 
 
 def file_keys(entry: Mapping[str, Any]) -> list[str]:
-    """Keys of a blade's entry with names of files; hub and tip of sections may be files, the tip of a mesh is a set."""
-    ends = [key for key in ("hub", "tip") if "sections" in entry and entry.get(key) not in (OWN, ASKED)]
-    return [key for key in (*TABLES, *IMPORTED, *ends) if isinstance(entry.get(key), str)]
+    """Keys of a blade's entry with names of files."""
+    keys = [key for key in TABLES if isinstance(entry.get(key), str)]
+    for kind in blade_kinds().values():
+        named = kind.file_keys if kind.key in entry else ()
+        keys += [key for key in named if isinstance(entry.get(key), str) and entry[key] not in kind.no_files]
+    return keys
 
 
 def study_folder(file: Path) -> Path:

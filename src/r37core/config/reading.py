@@ -5,12 +5,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from .blades import Blades
+from .blade_kind import blade_kinds
+from .blades import blades_model
 from .config_file import Config
 from .document import ConfigError, ConfigRefusals, Document, command_line_document, completed, entries_of, read_document
 from .families import Designs, expanded_families
 from .fidelity import Level, Levels
-from .named_files import IMPORTED, file_keys, located_files, located_in_configuration
+from .named_files import file_keys, located_files, located_in_configuration
 from .scenes import SceneEntry, checked_scenes
 from .settings import Documents, Settings
 from .speed_section import UNITS
@@ -97,7 +98,7 @@ def _levels(root: Path, name: str) -> tuple[Document, dict[str, Level]]:
 def blades_document(root: Path, name: str, above: Document | None = None) -> Document:
     """The file of blades `name`, with changes `above`, and files of entries as seen from `root`. Raises ConfigError."""
     document = read_document(root, name)
-    document, refusals = completed(document.overlaid(above) if above else document, None, "blade", IMPORTED)
+    document, refusals = completed(document.overlaid(above) if above else document, None, "blade", blade_kinds())
     refusals.tell()
     located = {key: located_files(entry, file_keys(entry), root / name, root) for key, entry in entries_of(document).items()}
     return replace(document, content={**document.content, **located} if located else document.content)
@@ -106,7 +107,7 @@ def blades_document(root: Path, name: str, above: Document | None = None) -> Doc
 def blades_of_file(root: Path, name: str, above: Document | None = None) -> Designs[Any]:
     """Blades of the file `name`, whose name starts from the folder `root`, with changes `above`. Raises ConfigError."""
     document = blades_document(root, name, above)
-    return expanded_families(document.check(Blades).root, root, document)
+    return expanded_families(document.check(blades_model()).root, root, document)
 
 
 def _scenes(root: Path, name: str, above: Document | None) -> Designs[SceneEntry]:

@@ -2,13 +2,8 @@
 
 from collections.abc import Collection, Mapping, Sequence
 
-import numpy as np
-
-from r37core.blade.definition import SectionsDefinition
 from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
-from r37core.exchange.importing.file_material import ignored_material
-from r37core.exchange.importing.source import MeshSource
 from r37core.rom.reduction_choice import LINEAR, POINTS, QUADRATIC
 
 from .settings import Settings, contact_of_blades, direct_on_points, fastest_of, length_of_run, most_runs, slowest_speeds
@@ -73,29 +68,15 @@ def remarks_on_speeds(settings: Settings) -> list[str]:
 
 
 def remarks_on_blades(settings: Settings) -> list[str]:
-    """Remarks on unusual or unused materials, and on where hub and tip cut sections."""
+    """Remarks on unusual materials, and of what the blades are given by."""
     blades: dict[str, list[str]] = {}
     for name, blade in settings.blades.items():
         for key, (value, (low, high)) in ({} if blade.material is None else blade.material.unusual).items():
             text = f"material.{key}: found {value:g}; alloys and composites have {low:g} to {high:g}: check its unit"
             blades.setdefault(text, []).append(name)
-        if isinstance(blade.definition, SectionsDefinition):
-            blades.setdefault(_extent_of(blade.definition), []).append(name)
-        if isinstance(blade.definition, MeshSource) and blade.material is not None:
-            other = ignored_material(blade.definition.file, settings.root, blade.material)
-            if other is not None:
-                text = f"{blade.definition.file} has a material of its own ({other.wording}, in its units); it is not used"
-                blades.setdefault(f"{text}, and differs from that of blades.yaml", []).append(name)
+        for text in blade.definition.remarks(settings.root, blade.material):
+            blades.setdefault(text, []).append(name)
     return [f"{_first_few(names)}: {text}" for text, names in blades.items()]
-
-
-def _extent_of(definition: SectionsDefinition) -> str:
-    """Line on the radii between which sections and blade lie, and what hub and tip cut off or add."""
-    places, first, last = definition.places(), definition.curves[0].radius, definition.curves[-1].radius
-    below, above = (definition.height / np.ptp(places) * share for share in (-places[0], places[-1] - 1.0))
-    extent = f"sections lie from r {first:.4g} to {last:.4g} m, the blade from {first + below:.4g} to {last - above:.4g} m"
-    hub, tip = (f"{'adds' if share < 0.0 else 'cuts off'} {1e3 * abs(share):.3g} mm" for share in (below, above))
-    return f"{extent}: the hub {hub}, the tip {tip}"
 
 
 def _first_few(names: Sequence[str]) -> str:

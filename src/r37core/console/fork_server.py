@@ -19,13 +19,14 @@ from multiprocessing.connection import Connection, wait
 from types import CodeType
 from typing import Any, NoReturn
 
+from r37core.base.packages import PACKAGES
 from r37core.sweep.forks import end_with_parent
 
 # every job imports it
 from . import failures as failures
 
-_NAMES = re.compile(rb"r37core(?:\.[a-z_]\w*)+")
-"""Modules of the package, and functions in them, as a job's parameters name them."""
+_NAMES = re.compile(rb"(?:%s)(?:\.[a-z_]\w*)+" % "|".join(PACKAGES).encode())
+"""Modules of the packages, and functions in them, as a job's parameters name them."""
 
 
 def serve(channel: Connection) -> None:

@@ -8,23 +8,22 @@ from functools import cache
 from itertools import takewhile
 from pathlib import Path
 
+from r37core.base.packages import PACKAGES
 from r37core.machine_code import code_hash
 from r37core.machine_code.kept import keep, read_kept
 
-PACKAGE = "r37core"
-
 
 class CodeHashes:
-    """Hashes of code by its name: a script in the folder `scripts`, a module or a function of the package in `source`.
+    """Hashes of code by its name: a script in the folder `scripts`, a module or a function of the packages in `source`.
 
     Each is of all that it imports from the scripts and the package, directly or not. Of a function's own module only what
     the function uses counts. Comments, docstrings and layout do not count, nor does the version in the package's own
     __init__. `source` may hold other packages, too: of those in it only imports of `packages` count.
     """
 
-    def __init__(self, source: Path, scripts: Path, packages: Collection[str] = (PACKAGE,)):
+    def __init__(self, source: Path, scripts: Path, packages: Collection[str] = PACKAGES):
         self._source, self._scripts, self._packages = source, scripts, packages
-        self._version_file = source / PACKAGE / "__init__.py"
+        self._version_file = source / PACKAGES[0] / "__init__.py"
         # closures share most of their parts
         self._parts, self._needed = cache(self._parts_of), cache(self._needed_by)
         self._order = cache(lambda part: (part[0].is_relative_to(scripts), part[0].parts, part[1]))
@@ -40,10 +39,9 @@ class CodeHashes:
     def step(self, function: str, *modules: str) -> dict[str, str]:
         """Parameters of a rule that runs this step by the script step.py: its name, and the hash of its code.
 
-        `function`: a step of the package, as `fem.steps.mesh`; `modules` of the package that it imports by name.
+        `function`: a step, as `r37core.fem.steps.mesh`; `modules`: those that it imports by name.
         """
-        name, *others = (f"{PACKAGE}.{module}" for module in (function, *modules))
-        return {"step": name, "code": self("step", name, *others)}
+        return {"step": function, "code": self("step", function, *modules)}
 
     def closure(self, *names: str) -> list[Path]:
         """The files of what has these names and of all that they import, directly or not, sorted."""

@@ -1,10 +1,13 @@
 """Stages that rules and single calls from Python share: what does each, and with which parameters."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from r37core.base.io import function_named
+from r37core.base.packages import registered
 from r37core.base.plain import to_plain
+from r37core.blade.definition import shape_modules
 from r37core.config import plain, si_fields
 
 from .provenance import Provenance
@@ -16,12 +19,14 @@ class Stage:
     """A step, as `fem.steps.mesh`, with its parameters: plain values, and functions of wildcards as rules have them.
 
     `title`: what the stage is called while it works. `reads`: name of an input -> stage of the same blade that makes it.
+    `modules`: those that the step imports by name.
     """
 
     step: str
     params: Mapping[str, Any]
     title: str = ""
     reads: Mapping[str, str] = field(default_factory=dict)
+    modules: Sequence[str] = ()
 
     def values(self, wildcards: Any) -> dict[str, Any]:
         """The parameters of one job."""
@@ -31,13 +36,7 @@ class Stage:
 def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]:
     """Stages from blade shape to Campbell diagram, by the names of their rules."""
     settings = structure.settings
-    source = {"source": structure.definition, "folder": structure.folder, "locations": structure.locations}
-    reduction = {
-        "boundary": structure.boundary,
-        "reduction": structure.reduction,
-        "contact": structure.location_of_contact,
-        "provenance": made.structure,
-    }
+    reduction = reduction_parameters(structure, made)
     shape = {"definition": structure.definition, "edges": settings.structure.edges, "provenance": made.shape}
     regions = {"stress_regions": lambda wildcards: to_plain(settings.stress_regions(wildcards.blade))}
     own = {"material": structure.elastic, **regions, "kept": True}
@@ -48,19 +47,36 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
         "provenance": made.structure,
     }
     reduced = {"rom": "reduced_model"}
-    return {
-        "geometry": Stage("blade.steps.geometry", shape, "shape"),
-        "mesh": Stage("fem.steps.mesh", {"mesh": plain(settings.fidelity.mesh)}, "mesh", {"geometry": "geometry"}),
-        "imported_mesh": Stage("exchange.importing.steps.imported_mesh", source, "import of the mesh"),
-        "imported_matrices": Stage(
-            "exchange.importing.steps.imported_matrices", {**source, **reduction}, "import of the matrices"
+    shapes = shape_modules()
+    stages = {
+        "geometry": Stage("r37core.blade.steps.geometry", shape, "shape", modules=shapes),
+        "mesh": Stage(
+            "r37core.fem.steps.mesh", {"mesh": plain(settings.fidelity.mesh)}, "mesh", {"geometry": "geometry"}, shapes
         ),
         "reduced_model": Stage(
-            "rom.steps.reduced_model", {**own, **reduction}, "matrices and reduced model, the longest stage", {"mesh": "mesh"}
+            "r37core.rom.steps.reduced_model",
+            {**own, **reduction},
+            "matrices and reduced model, the longest stage",
+            {"mesh": "mesh"},
         ),
         "contact_model": Stage(
-            "rom.steps.contact_model", {"tip_line": lambda wildcards: wildcards.tip_line}, "contact model", reduced
+            "r37core.rom.steps.contact_model", {"tip_line": lambda wildcards: wildcards.tip_line}, "contact model", reduced
         ),
-        "stress_operator": Stage("stress.steps.stress_operator", {"material": structure.elastic}, "stress operator", reduced),
-        "campbell_of_blade": Stage("results.steps.campbell_of_blade", diagram, "Campbell diagram", reduced),
+        "stress_operator": Stage(
+            "r37core.stress.steps.stress_operator", {"material": structure.elastic}, "stress operator", reduced
+        ),
+        "campbell_of_blade": Stage("r37core.results.steps.campbell_of_blade", diagram, "Campbell diagram", reduced),
+    }
+    for more in registered("STAGES").values():
+        stages |= function_named(more)(structure, made)
+    return stages
+
+
+def reduction_parameters(structure: Structure, made: Provenance) -> dict[str, Any]:
+    """Parameters of a stage that makes a reduced model, whatever from."""
+    return {
+        "boundary": structure.boundary,
+        "reduction": structure.reduction,
+        "contact": structure.location_of_contact,
+        "provenance": made.structure,
     }

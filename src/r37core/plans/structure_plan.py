@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import Any
 
 from r37core.base.plain import to_plain
-from r37core.blade.definition import Shape
 from r37core.config import Settings
 from r37core.config.settings import location_of_contact
-from r37core.exchange.importing.source import MatricesSource, MeshSource, matrix_files, mesh_files
 
 from .paths import WHOLE_BLADE_MODEL, fill
 from .provenance import Attributes
+
+STAGES = ("geometry", "mesh", "reduced_model")
+"""Stages that a blade of another kind may have others in place of."""
 
 
 @dataclass(frozen=True)
@@ -52,32 +53,23 @@ class Structure:
         tip_line = self.settings.scenes[scene].tip_line if scene else self.settings.structure.boundary.tip_line
         return fill(WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
 
-    def given_by(self, *kinds: Any) -> list[str]:
-        """Names of the blades that are given in one of these ways."""
-        return [name for name, blade in self.settings.blades.items() if isinstance(blade.definition, kinds)]
+    def made_by(self, rule: str) -> list[str]:
+        """Names of the blades that a rule of the structure makes a file of, such as `mesh` or `imported_mesh`."""
+        blades = self.settings.blades.items()
+        return [name for name, blade in blades if rule in (blade.definition.stages.get(stage, stage) for stage in STAGES)]
 
     @property
     def meshed_blades(self) -> list[str]:
         """Blades that have a mesh, ours or another program's."""
-        return self.given_by(Shape, MeshSource)
+        return [name for name, blade in self.settings.blades.items() if not blade.is_matrices]
 
-    @property
-    def blades(self) -> list[str]:
-        """Blades of other programs, by a mesh or by matrices."""
-        return self.given_by(MeshSource, MatricesSource)
-
-    def pattern(self, *kinds: Any) -> str:
-        """Pattern of the blades that are given in one of these ways, for a rule's wildcard; it fits nothing without any."""
-        return "|".join(map(re.escape, self.given_by(*kinds))) or "(?!)"
+    def pattern(self, rule: str) -> str:
+        """Pattern of the blades that a rule is for, for its wildcard; it fits nothing without any."""
+        return "|".join(map(re.escape, self.made_by(rule))) or "(?!)"
 
     def files(self, wildcards: Any) -> list[str]:
         """Files that a blade is imported from, as seen from the current folder where that is possible."""
-        source = self.settings.blades[wildcards.blade].definition
-        if isinstance(source, MeshSource):
-            files = mesh_files(source.file, self.settings.root)
-        else:
-            assert isinstance(source, MatricesSource)
-            files = list(matrix_files(source.folder, self.settings.root).values())
+        files = self.settings.blades[wildcards.blade].definition.files(self.settings.root)
         return [_seen_from_here(file) for file in files]
 
     def locations(self, wildcards: Any) -> Attributes:

@@ -1,12 +1,10 @@
-"""The registry of the extensions: a capability is one folder of this package, one file of rules, and one line here.
-
-The configuration is read with the sections and checks of all of them.
-"""
+"""The extensions of the installed packages. The configuration is read with the sections and checks of all of them."""
 
 from collections import Counter
 from importlib import import_module
 from itertools import chain
 
+from r37core.base.packages import registered
 from r37core.config import Settings
 from r37core.config.config_file import Config, config_model
 from r37core.config.cross_checks import CHECKS
@@ -14,29 +12,13 @@ from r37core.config.reading import Reader
 from r37core.plans.extension import Extension
 from r37core.plans.extent import Pair
 
-FOLDERS = (
-    "exports",
-    "shapes",
-    "signals",
-    "run_ups",
-    "second_motions",
-    "rotors",
-    "designs",
-    "requirements",
-    "tolerances",
-    "search",
-    "measured",
-    "trials",
-)
-"""Folders of the extensions, in the order of their sections in docs/configuration.md."""
 
-
-def _declared(folder: str) -> tuple[Extension, ...]:
-    plan = import_module(f"r37core.{folder}.plan")
+def _declared(module: str) -> tuple[Extension, ...]:
+    plan = import_module(module)
     return plan.EXTENSIONS if hasattr(plan, "EXTENSIONS") else (plan.EXTENSION,)
 
 
-EXTENSIONS: tuple[Extension, ...] = tuple(chain.from_iterable(map(_declared, FOLDERS)))
+EXTENSIONS: tuple[Extension, ...] = tuple(chain.from_iterable(map(_declared, registered("EXTENSIONS").values())))
 """All extensions: one of each folder, or several that share its rules."""
 
 

@@ -52,7 +52,7 @@ def line_of_extension(extension: Extension, sweep: Sweep, results: Path, began: 
         return ""
     closing = f"{len(made)} file{'s' * (len(made) > 1)} made"
     if extension.closing:
-        module, name = f"r37core.{extension.closing}".rsplit(".", 1)
+        module, name = extension.closing.rsplit(".", 1)
         # a file that cannot be read, or lacks a column, is no failure of the run that has ended: what reads it next refuses it
         with suppress(InputFileError, KeyError):
             closing = getattr(import_module(module), name)(results)

@@ -11,13 +11,13 @@ from typing import Any
 from pydantic import BaseModel
 
 from r37core.base.io import write_text
-from r37core.config.blades import Blades
+from r37core.config.blades import blades_model
 from r37core.config.fidelity import Levels
 from r37core.config.scenes import Scenes
 
 from .extensions import CONFIG
 
-MODELS: dict[str, type[BaseModel]] = {"config": CONFIG, "blades": Blades, "scenes": Scenes, "fidelity": Levels}
+MODELS: dict[str, type[BaseModel]] = {"config": CONFIG, "blades": blades_model(), "scenes": Scenes, "fidelity": Levels}
 
 _ON_BASE = "OnBase"
 """End of the names of parts that need no key."""

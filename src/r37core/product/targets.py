@@ -82,8 +82,8 @@ def drawing(code: CodeHashes, operating: Mapping[str, Any] | None, figure: Figur
         every = getattr(sweep.settings, f"{kind}s")
         caption += f" {len(shown)} of {len(every)} {kind}s are drawn." if len(shown) < len(every) else ""
     return {
-        **code.step("figures.steps.draw", figure.draw.rpartition(".")[0]),
-        "draw": f"r37core.{figure.draw}",
+        **code.step("r37core.figures.steps.draw", figure.draw.rpartition(".")[0]),
+        "draw": figure.draw,
         "of": _title_parts,
         "caption": lambda wildcards: caption.format(**dict(wildcards.items())),
         **({"operating": operating} if operating else {}),

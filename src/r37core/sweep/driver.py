@@ -54,7 +54,7 @@ class Driver:
         `campbell`: the diagram that adaptive speeds begin with; `about`: attributes of the files of each sweep, as JSON.
         """
         self.structures.mkdir(parents=True, exist_ok=True)
-        code = code_of("time_integration.speed_job.run_job")
+        code = code_of("r37core.time_integration.speed_job.run_job")
         models = self.run_all([partial(self._models, sweep) for sweep in sweeps.values()], "models")
         runs = [
             _Runs(self.folder / name, sweep, tuple(files), about[name], code, self.motion)

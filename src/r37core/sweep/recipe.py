@@ -14,7 +14,6 @@ import r37core
 from r37core.base.io import Named, function_named, room_for, scratch_folder
 from r37core.base.plain import to_plain
 from r37core.config import Settings
-from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.machine_code.kept import kept_file, numerics
 from r37core.plans.code import CodeHashes
 from r37core.plans.provenance import Attributes, Provenance
@@ -37,9 +36,6 @@ _FILES = {
 }
 """Stage -> name of the file that others read, also of what a blade of another program has in its place."""
 
-_IMPORTED = {MeshSource: {"mesh": "imported_mesh"}, MatricesSource: {"reduced_model": "imported_matrices"}}
-"""Stages of a blade of another program in place of others."""
-
 _MAKING = threading.RLock()
 """Held by the thread that makes structures: gmsh, and what reads meshes of others, serve one at a time."""
 
@@ -48,20 +44,21 @@ _MAKING = threading.RLock()
 class Recipe:
     """Recipe of a file: the `step` that makes it, from files with recipes of their own, with plain `params`.
 
-    `blade`, `title`: what is made, for messages; `name`: of the file.
+    `blade`, `title`: what is made, for messages; `name`: of the file; `modules`: those that the step imports by name.
     """
 
     blade: str
     step: str
     title: str
     name: str
+    modules: tuple[str, ...] = ()
     inputs: Mapping[str, Recipe] = field(default_factory=dict)
     params: Mapping[str, Any] = field(default_factory=dict)
 
     @cached_property
     def made_of(self) -> list[Any]:
         """All that the content of the file follows from, as plain values."""
-        return to_plain([code_of(self.step), [part.made_of for part in self.inputs.values()], self.params])
+        return to_plain([code_of(self.step, *self.modules), [part.made_of for part in self.inputs.values()], self.params])
 
     def file(self, folder: Path, attributes: Mapping[str, Any]) -> Path:
         """The file in the folder, made now where it is missing, which may take minutes. Raises what making it raises.
@@ -78,7 +75,7 @@ class Recipe:
             # a mesh is also written for Gmsh
             output = {file.stem: file, file.suffix[1:]: file, "msh": aside / "mesh.msh"}
             # what a file says of its making is said by whom it is read for
-            params = {**self.params, **attributes, "code": code_of(self.step), "provenance": Attributes()}
+            params = {**self.params, **attributes, "code": code_of(self.step, *self.modules), "provenance": Attributes()}
             shown = run_step(self.step, files, output, params)
         if shown:
             LOGGER.info("%s: %s", self.blade, shown)
@@ -90,16 +87,16 @@ def recipes(settings: Settings, blade: str, tip_lines: Mapping[str, str | None],
     Without a line that of config.yaml counts. `kept`: whether the user's cache has a copy of the reduced model.
     """
     stages = structure_stages(Structure(settings), Provenance(settings))
-    imported = _IMPORTED.get(type(settings.blades[blade].definition), {})
+    others = settings.blades[blade].definition.stages
 
     @cache
     def stage_recipe(stage: str, tip_line: str) -> Recipe:
-        made = stages[imported.get(stage, stage)]
+        made = stages[others.get(stage, stage)]
         inputs = {key: stage_recipe(other, tip_line) for key, other in made.reads.items()}
         params = made.values(Named(blade=blade, tip_line=tip_line))
         values = {key: value for key, value in params.items() if not isinstance(value, Attributes)}
         values |= {"kept": kept} if "kept" in values else {}
-        return Recipe(blade, made.step, made.title, _FILES[stage], inputs, to_plain(values))
+        return Recipe(blade, made.step, made.title, _FILES[stage], tuple(made.modules), inputs, to_plain(values))
 
     return {stage: stage_recipe(stage, line or settings.structure.boundary.tip_line) for stage, line in tip_lines.items()}
 
@@ -112,12 +109,12 @@ def structure_attributes(settings: Settings, blade: str) -> Attributes:
 
 
 def run_step(step: str, input: Mapping[str, Any], output: Mapping[str, Any], params: Mapping[str, Any]) -> Any:
-    """Do a step, named as `fem.steps.mesh`, whose module is imported now. Gives and raises what it does."""
-    return function_named(f"r37core.{step}")(Named(**input), Named(**output), Named(**params))
+    """Do a step, named as `r37core.fem.steps.mesh`, whose module is imported now. Gives and raises what it does."""
+    return function_named(step)(Named(**input), Named(**output), Named(**params))
 
 
 @cache
-def code_of(step: str) -> list[str]:
+def code_of(step: str, *modules: str) -> list[str]:
     """Hash of the code of a step, and what its numbers come from: others make other files, and environments share folders."""
     source = Path(r37core.__file__).parent.parent
-    return [CodeHashes(source, source)(f"{r37core.__name__}.{step}"), *numerics("gmsh", "h5py", "meshio", "numpy", "scipy")]
+    return [CodeHashes(source, source)(step, *modules), *numerics("gmsh", "h5py", "meshio", "numpy", "scipy")]

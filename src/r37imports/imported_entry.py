@@ -1,0 +1,178 @@
+"""Blades of other programs in blades.yaml: a mesh, or a directory of matrices."""
+
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, Discriminator, Field, Tag
+
+from r37core.blade.definition import Definition
+from r37core.config.blade_kind import BladeKind
+from r37core.config.blade_sections import (
+    CONTACT_IN_WORDS,
+    KINEMATICS_IN_WORDS,
+    Contact,
+    Kinematics,
+    MaterialSection,
+    RegionSection,
+    refuse_taken_names,
+)
+from r37core.config.declaring import DECLARED, declared_by, si_form
+from r37core.config.section import ByName, FileName, LeftOut, Name, Section, left_out, or_section, refused
+from r37core.fem.orientation import Orientation
+from r37imports.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
+from r37imports.refusal import ASKED
+
+Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
+Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
+
+
+@declared_by(Where)
+class SurfaceRule(Section):
+    """All outer faces within limits; r is the distance from the rotor axis, x radial, z along the axis downstream."""
+
+    r_at_least_m: Radius = left_out("Lower bound of the distance from the rotor axis")
+    r_at_most_m: Radius = left_out("Upper bound of the distance from the rotor axis")
+    x_at_least_m: Length = left_out("Lower bound of the radial coordinate")
+    x_at_most_m: Length = left_out("Upper bound of the radial coordinate")
+    z_at_least_m: Length = left_out("Lower bound of the axial coordinate")
+    z_at_most_m: Length = left_out("Upper bound of the axial coordinate")
+
+    def _check(self) -> None:
+        if not (self._limits() or self.cone_zr_m or self.planes_m or self.sets):
+            raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m, planes_m or sets")
+        if [0.0, 0.0, 0.0] in self.planes_m:
+            raise refused(("planes_m",), "a plane through the origin", "planes that do not contain it")
+        if self.cone_zr_m is not None and self.cone_zr_m[0] == self.cone_zr_m[1]:
+            raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
+        if self.cone_zr_m is not None and min(radius for _, radius in self.cone_zr_m) < 0.0:
+            raise refused(("cone_zr_m",), f"{self.cone_zr_m}", "two points [z, r], with radii of 0 or more")
+
+    def _limits(self) -> tuple[tuple[str, str, float], ...]:
+        names = [(axis, bound) for axis in "rxz" for bound in ("at_least", "at_most")]
+        limits = [(axis, bound, getattr(self, f"{axis}_{bound}_m")) for axis, bound in names]
+        return tuple((axis, bound, float(value)) for axis, bound, value in limits if value is not None)
+
+    def where(self) -> Where:
+        """The rule as the import takes it."""
+        return si_form(Where, self, limits=self._limits())
+
+
+SetOrRule: Any = or_section(FileName, SurfaceRule, Annotated[list[FileName], Field(min_length=1)])
+
+
+_LEAST_METRES, _MOST_METRES = 1e-9, 1e3
+
+
+def _quotient(text: str) -> float:
+    """Metres of a unit that is written as a quotient, as 1/2540."""
+    try:
+        above, below = map(float, text.split("/"))
+        metres = above / below
+    except (ValueError, ZeroDivisionError):
+        metres = 0.0
+    if not _LEAST_METRES <= metres <= _MOST_METRES:
+        raise refused((), text, f"a quotient such as 1/2540, from {_LEAST_METRES:g} to {_MOST_METRES:g} metres")
+    return metres
+
+
+LengthUnit = Annotated[
+    Annotated[Literal["m", "cm", "mm", "um", "in", "ft"], Tag("name")]
+    | Annotated[str, AfterValidator(_quotient), Tag("quotient")]
+    | Annotated[float, Field(ge=_LEAST_METRES, le=_MOST_METRES), Tag("metres")],
+    Discriminator(lambda value: ("quotient" if "/" in value else "name") if isinstance(value, str) else "metres"),
+]
+
+
+@declared_by(Orientation)
+class Oriented(BladeKind):
+    """How a file of another program describes space."""
+
+    base: Name | LeftOut = left_out("Blade that gives what is left out")
+    length_unit: LengthUnit = Field(description="Unit of the coordinates, or its length in metres, also as a quotient: 1/2540")
+    rotor_axis: Any = DECLARED
+    radial: Any = DECLARED
+    rotation: Any = DECLARED
+    axis_point: Any = DECLARED
+    sense_check: bool = Field(
+        default=True, description="Whether a blade whose trailing edge leads, or whose pressure side is convex, is refused"
+    )
+
+    def orientation(self) -> Orientation:
+        """Unit and axes as the import takes them."""
+        return si_form(Orientation, self)
+
+    def definition(self, name: str, root: Path, check_sense: bool) -> Definition:
+        """The source of `source`, with directions checked. Raises ImportRefused and OSError."""
+        self.orientation().check()
+        return self.source(root)
+
+    def source(self, root: Path) -> Definition:
+        """What the import takes, with files from the folder `root`; ImportRefused where they are missing."""
+        raise NotImplementedError
+
+
+@declared_by(MeshSource)
+class MeshEntry(Oriented):
+    """A blade given by a mesh of solid elements."""
+
+    key: ClassVar[str] = "mesh"
+    file_keys: ClassVar[tuple[str, ...]] = ("mesh",)
+
+    mesh: FileName = Field(description="Mesh file: .inp, .msh, .vtu, .med, .bdf, .nas, or .cdb with the package meshlane")
+    material: MaterialSection
+    root: SetOrRule = Field(description="Clamped nodes: sets of the file (BOUNDARY: those of *BOUNDARY) or a rule")
+    tip: SetOrRule = Field(description="Faces towards the casing: a set of the file or a rule")
+    pressure_side: Any = DECLARED
+    revolution_tolerance_m: Any = DECLARED
+    drop_free_nodes: Any = DECLARED
+    minimum_scaled_jacobian: Any = DECLARED
+    end_check: Any = DECLARED
+    hub_zr_m: Any = DECLARED
+    contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
+    kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
+    stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
+
+    def _check(self) -> None:
+        refuse_taken_names(self.stress_regions or ())
+        if self.hub_zr_m is not None and self.hub_zr_m[0][0] == self.hub_zr_m[1][0]:
+            raise refused(("hub_zr_m",), "the same z twice", "two points [z, r] of different z")
+
+    def source(self, root: Path) -> MeshSource:
+        """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
+        ends, digest = {"root": _where(self.root), "tip": _where(self.tip)}, digest_of(mesh_files(self.mesh, root))
+        source = si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, **ends)
+        if ASKED in (self.root, self.tip):
+            # answered before any job, in a dry run too; what reads meshes takes time to load
+            from r37imports.importing.import_mesh import import_mesh
+
+            import_mesh(source, root)
+        return source
+
+
+@declared_by(MatricesSource)
+class MatricesEntry(Oriented):
+    """A blade given by matrices, full or reduced; there is no stress without a mesh."""
+
+    key: ClassVar[str] = "matrices"
+    file_keys: ClassVar[tuple[str, ...]] = ("matrices",)
+    with_material: ClassVar[bool] = False
+
+    matrices: FileName = Field(description="Folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
+    mass_unit: Any = DECLARED
+    stiffness_unit: Any = DECLARED
+    contact: Literal["points", "patches"] = Field(
+        default="points",
+        description="Contact acts on the nodes of boundary.csv (points) or on patches of its complete tip line",
+    )
+    kinematics: Literal["linear"] = Field(default="linear", description="Always: matrices say nothing of large displacements")
+
+    def source(self, root: Path) -> MatricesSource:
+        """Matrices to import, from the folder `root`; ImportRefused where files are missing."""
+        digest = digest_of(matrix_files(self.matrices, root).values())
+        return si_form(MatricesSource, self, folder=self.matrices, orientation=self.orientation(), digest=digest)
+
+
+def _where(rule: Any) -> Where:
+    if isinstance(rule, SurfaceRule):
+        return rule.where()
+    return Where((rule,) if isinstance(rule, str) else tuple(rule), tolerance=0.0)

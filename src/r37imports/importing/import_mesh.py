@@ -1,0 +1,216 @@
+"""A mesh from another program as a blade: read, checked, turned to the blade's frame, its root and tip found."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from r37core.fem.surface import outer_faces
+from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
+from r37imports.placement import to_blade, warn_of_size
+from r37imports.refusal import ImportRefused, Refusals, blamed
+
+from .abaqus_reader import read_abaqus
+from .ends import Caught, caught_by, check_end, check_root, find_end, find_platform
+from .fitting_entry import fitting_entry
+from .mesh_checks import checked, without_free_nodes
+from .meshio_reader import read_ansys, read_nastran, read_with_meshio
+from .raw_mesh import RawMesh
+from .source import MeshSource, kind_of, mesh_files
+from .tip import TipLines, check_revolution, check_sense, find_tip_lines
+
+_READERS: dict[str, Callable[[Path], RawMesh]] = dict.fromkeys((".msh", ".vtu", ".med"), read_with_meshio)
+_READERS |= {".inp": read_abaqus, ".bdf": read_nastran, ".nas": read_nastran, ".cdb": read_ansys}
+
+
+def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
+    """The blade's mesh and the scaled Jacobian of each element, shape (elements,); `folder`: what `source.file` starts from.
+
+    Raises ImportRefused, with the file's name and the reason, for a mesh that cannot be computed with.
+    """
+    with blamed("mesh"):
+        file = mesh_files(source.file, Path(folder))[0]
+    with blamed("mesh", source.file):
+        raw = _read(file)
+        raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, source.minimum_scaled_jacobian)
+    placed = None
+    try:
+        with blamed("rotor_axis", source.file):
+            placed = to_blade(source.orientation, raw)
+            warn_of_size(source.orientation, placed.points)
+        root, tip, lines = _ends(source, placed)
+    except ImportRefused as error:
+        size = ""
+        if placed is not None:
+            # what fits its shape, fits in any unit
+            radius = np.hypot(placed.points[:, 0], placed.points[:, 1])
+            size = (
+                f"; with length_unit {source.orientation.length_unit} the blade reaches from {radius.min():.4g} to "
+                f"{radius.max():.4g} m from the axis"
+            )
+        raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw) | _known_sets(source, raw)) from None
+    raw = placed
+    height = source.height(raw.points)
+    if height is not None and (height[tip].min() <= 0.0 or height[root].min() > 0.01 * height[tip].max()):
+        wrong = "a tip that is not above hub_zr_m" if height[tip].min() <= 0.0 else "a root above hub_zr_m"
+        raise ImportRefused(f"{source.file}: found {wrong}; allowed: the platform's top", "hub_zr_m")
+    with blamed("mesh", source.file):
+        parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward, height)
+    sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
+    # the edges come last: nodes that they share with the camber line count by their place on the edge
+    for name, (nodes, fractions) in reversed(lines.items()):
+        sets[name] = nodes
+        parameters[nodes, 0] = fractions
+    edge = sets["tip_pressure_edge"]
+    sets["leading_edge"], sets["trailing_edge"] = edge[:1], edge[-1:]
+    parameters[root, 1], parameters[tip, 1] = 0.0, 1.0
+    return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
+
+
+_MOST_NAMES = 30
+
+
+def _known_sets(source: MeshSource, mesh: RawMesh) -> dict[str, str]:
+    """A remark with the sets of the file where the entry names one that it lacks, or asks."""
+    wanted = {name.upper() for where in (source.root, source.tip) for name in where.sets + where.without}
+    known = [f"{name} ({len(nodes)} nodes)" for name, nodes in sorted(mesh.sets.items()) if len(nodes)] or ["none"]
+    more = [f"and {len(known) - _MOST_NAMES} more"] if len(known) > _MOST_NAMES else []
+    is_known = wanted <= {name.upper() for name in mesh.sets}
+    return {} if is_known else {"# sets of the file": ", ".join(known[:_MOST_NAMES] + more)}
+
+
+def size_in_words(mesh: BladeMesh, source: MeshSource) -> str:
+    """Length and width, radii of tip and root, and where the span begins, as text, to be compared with the real blade."""
+    radius, size = np.hypot(mesh.points[:, 0], mesh.points[:, 1]), np.ptp(mesh.points, axis=0)
+    leading, trailing = (radius[mesh.node_set(f"{name}_edge")].max() for name in ("leading", "trailing"))
+    root = radius[mesh.node_set("root")].mean()
+    span = "span begins at hub_zr_m, stress regions with a minimum_span lie above"
+    if source.hub_zr is None:
+        platform = find_platform(mesh.points, outer_faces(mesh.blocks))
+        hint = f"; the root is modelled: at its platform with hub_zr_m: {platform.points_as_yaml()}" if platform else ""
+        span = f"span begins at the clamped faces{hint}"
+    return (
+        f"{size[0]:.4g} m long and {size[2]:.4g} m wide along the axis, "
+        f"radius of the tip {leading:.4g} m at the leading and {trailing:.4g} m at the trailing edge, of the root {root:.4g} m"
+        f"; {span}"
+    )
+
+
+def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, TipLines]:
+    """The clamped nodes, those of the tip and lines along it, of a mesh in the blade's frame.
+
+    Raises ImportRefused for ends that cannot be meant: one message with all that is wrong, so that one change mends it.
+    """
+    surface = outer_faces(raw.blocks)
+    rules = {"root": source.root, "tip": source.tip}
+    ends = {what: find_end(what, raw.points, surface) for what in rules}
+    refusals = Refusals(source.file)
+    caught: dict[str, Caught] = {}
+    for what, where in rules.items():
+        with refusals.of(what):
+            caught[what] = caught_by(where, what, raw, surface)
+    if len(caught) == len(rules):
+        with blamed("root", source.file):
+            check_root(raw.points, caught["root"].nodes, caught["tip"].nodes)
+    tip = caught.get("tip")
+    if source.end_check:
+        for what, part in caught.items():
+            with refusals.of(what):
+                check_end(what, rules[what], part, ends[what], raw.points, surface)
+        # where the rule for the tip is refused, the sense is still judged by the faces that it should have caught
+        casing = ends["tip"]
+        tip = casing if casing is not None and casing.straight else tip
+    if tip is not None:
+        with refusals.of("tip"):
+            check_revolution(raw.points[tip.nodes], source.revolution_tolerance)
+            lines = find_tip_lines(raw.points, tip.faces, source.pressure_side_forward)
+            if source.sense_check:
+                check_sense(raw.points, lines, source.pressure_side_forward)
+    # ends here where a part was not caught
+    refusals.tell()
+    return caught["root"].nodes, caught["tip"].nodes, lines
+
+
+def _read(file: Path) -> RawMesh:
+    """The mesh of a file; ImportRefused for a file that is unknown or unsuitable."""
+    try:
+        return _READERS[kind_of(file)](file)
+    except ImportRefused:
+        raise
+    except Exception as error:
+        raise ImportRefused(f"cannot be read ({type(error).__name__}: {error}); write it again") from error
+
+
+_SECTIONS = 25
+_SHARE = 0.06  # of the span: nodes within it make a section
+_FEWEST = 24  # nodes of a section
+
+
+def blade_parameters(
+    points: np.ndarray, root: np.ndarray, tip: np.ndarray, pressure_forward: bool, height: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """(chord, span, thickness) of every node, shape (nodes, 3), and unit normals, shape (nodes, 3).
+
+    `points` (m), shape (nodes, 3), in the blade's frame; `root` and `tip`: node numbers. Span is the distance to the root
+    over that to root and tip; of a modelled root it is 0, and `height` (m), shape (nodes,), above its platform counts instead.
+    Each section (nodes of like span) has a chord, the longest principal axis of its nodes across the blade's height, pointing
+    downstream, and a normal, the shortest, from the pressure to the suction side; chord and thickness are the place between
+    the section's extremes along them. They serve the names of the modes and pictures; of the mechanics only the weights of
+    patches, along the chord. `pressure_forward`: whether the pressure side looks towards the rotation. Raises ImportRefused
+    for a mesh with too few nodes for sections.
+    """
+    root_distance = cKDTree(points[root]).query(points)[0] if height is None else height
+    tip_distance, _ = cKDTree(points[tip]).query(points)
+    # nodes of a modelled root are in no section
+    span = np.where(root_distance < 0.0, -1.0, root_distance / (root_distance + tip_distance))
+    levels = np.linspace(0.0, 1.0, _SECTIONS)
+    members = [_members(span, level) for level in levels]
+    centres = np.array([0.5 * (points[m].max(axis=0) + points[m].min(axis=0)) for m in members])
+    upward = np.gradient(centres, levels, axis=0)
+    if not np.linalg.norm(centres[-1] - centres[0]) > 1e-6 * np.ptp(points, axis=0).max():
+        raise ImportRefused(
+            f"found a mesh of {len(points)} nodes, too few to tell sections between root and tip; mesh the blade finer"
+        )
+    # a coarse mesh has the same nodes in neighbouring sections
+    upward[np.linalg.norm(upward, axis=1) < 0.2 * np.linalg.norm(centres[-1] - centres[0])] = centres[-1] - centres[0]
+    upward /= np.linalg.norm(upward, axis=1)[:, None]
+    chords, normals = _section_axes(points, members, centres, upward, pressure_forward)
+    extremes = []
+    for m, centre, chord, normal in zip(members, centres, chords, normals, strict=True):
+        along, across = (points[m] - centre) @ chord, (points[m] - centre) @ normal
+        extremes.append([along.min(), np.ptp(along), across.min(), np.ptp(across)])
+    columns = np.hstack([centres, chords, normals, extremes]).T
+    rows = np.stack([np.interp(span, levels, column) for column in columns], axis=1)
+    centre, chord, normal, sizes = np.split(rows, [3, 6, 9], axis=1)
+    along_low, along_size, across_low, across_size = sizes.T
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    chord_fraction = (np.sum((points - centre) * chord, axis=1) - along_low) / along_size
+    thickness = 2.0 * (np.sum((points - centre) * normal, axis=1) - across_low) / across_size - 1.0
+    return np.stack([chord_fraction.clip(0.0, 1.0), span.clip(0.0), thickness.clip(-1.0, 1.0)], axis=1), normal
+
+
+def _members(span: np.ndarray, level: float) -> np.ndarray:
+    distance = np.abs(span - level)
+    within = np.flatnonzero(distance <= _SHARE)
+    return within if len(within) >= _FEWEST else np.argsort(distance, kind="stable")[:_FEWEST]
+
+
+def _section_axes(
+    points: np.ndarray, members: list[np.ndarray], centres: np.ndarray, height: np.ndarray, pressure_forward: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors along the chord and the normal of every section, shape (sections, 3) each; signs agree along the span."""
+    chords, normals = [], []
+    for m, centre, up in zip(members, centres, height, strict=True):
+        flat = points[m] - points[m].mean(axis=0)
+        flat -= np.outer(flat @ up, up)
+        _, axes = np.linalg.eigh(flat.T @ flat)
+        chord, normal = axes[:, 2], axes[:, 1]
+        theta = np.array([-centre[1], centre[0], 0.0]) / np.hypot(centre[0], centre[1])
+        towards_suction = theta if pressure_forward else -theta
+        chords.append(chord * np.sign(chord[2] if abs(chord[2]) > 0.02 else chord @ towards_suction))
+        normals.append(normal * np.sign(normal @ towards_suction))
+    for series in (chords, normals):
+        for i in range(1, len(series)):
+            series[i] *= 1.0 if series[i] @ series[i - 1] >= 0.0 else -1.0
+    return np.array(chords), np.array(normals)

@@ -1,0 +1,100 @@
+"""Virtual strain gauges: the strain at a place on the blade's surface, in one direction of the surface."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from r37core.fem.elements import ELEMENTS, Element
+from r37core.fem.surface import outer_faces
+from r37core.mesh.blade_mesh import BladeMesh
+from r37core.stress.gauge import Gauge
+
+
+@dataclass(frozen=True)
+class _SurfacePoint:
+    """A point on the surface: its element and the numbers of its nodes, local coordinates there, two directions in the surface.
+
+    `slopes`, shape (2, 3): change of the local coordinates along them; `parameters`, shape (2, 2): of (chord, span).
+    """
+
+    element: Element
+    nodes: np.ndarray
+    local: np.ndarray
+    slopes: np.ndarray
+    parameters: np.ndarray
+
+
+def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> tuple[np.ndarray, np.ndarray]:
+    """Strain of every gauge per unit of each reduced coordinate, shape (gauges, coordinates), and its place (m), (gauges, 3).
+
+    `basis`, shape (nodes, 3, coordinates): displacement of all nodes. The strain is that of the element under the gauge, at
+    the gauge: n . e n with e = (grad u + grad u^T) / 2 and n the unit vector along the grid. Of the vibration: the static
+    strain of the rotation is no part of it. Raises ValueError for a place that is not on the blade's surface.
+    """
+    rows, places = [], []
+    for gauge in gauges:
+        point = _surface_point(mesh, gauge)
+        corners, local = mesh.points[point.nodes], point.local[None]
+        tangents = point.slopes @ point.element.jacobian(corners[None], local)[0, 0].T
+        direction = _direction(tangents, point.parameters, gauge.angle)
+        gradients, _ = point.element.physical_gradients(corners[None], local)
+        rows.append(np.einsum("a,aij,i->j", gradients[0, 0] @ direction, basis[point.nodes], direction, optimize=True))
+        places.append(point.element.shape_functions(local)[0] @ corners)
+    return np.array(rows), np.array(places)
+
+
+def _direction(tangents: np.ndarray, parameters: np.ndarray, angle: float) -> np.ndarray:
+    """Unit vector of the surface at `angle` (rad) from the span towards the trailing edge.
+
+    `tangents`, shape (2, 3): directions in the surface along which chord and span change by the rows of `parameters`.
+    """
+    chordwise, spanwise = np.linalg.inv(parameters) @ tangents
+    along = spanwise / np.linalg.norm(spanwise)
+    across = chordwise - along * (along @ chordwise)
+    return np.cos(angle) * along + np.sin(angle) * across / np.linalg.norm(across)
+
+
+def _surface_point(mesh: BladeMesh, gauge: Gauge) -> _SurfacePoint:
+    """The element under a gauge: the triangle of corners of its side's outer faces that holds (chord, span)."""
+    corners = np.concatenate(_triangles(mesh, gauge.side))
+    parameters = mesh.parameters[corners, :2]
+    edges = parameters[:, 1:] - parameters[:, :1]
+    area = edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]
+    corners, parameters, edges = corners[area != 0.0], parameters[area != 0.0], edges[area != 0.0]
+    offset = np.array([gauge.chord, gauge.span]) - parameters[:, 0]
+    shares = np.linalg.solve(edges.transpose(0, 2, 1), offset[:, :, None])[:, :, 0]
+    shares = np.column_stack([1.0 - shares.sum(axis=1), shares])
+    best = int(np.argmax(shares.min(axis=1)))
+    # a little beyond the sides of a triangle a place still counts as in it
+    if shares[best].min() < -0.05:
+        raise ValueError(
+            f"a strain gauge at chord {gauge.chord:g} and span {gauge.span:g} is not on the {gauge.side} side of the mesh; "
+            "take a place farther from the edges (signals.gauges in config.yaml)"
+        )
+    element, nodes = _element_of(mesh, corners[best])
+    local = element.nodes[[int(np.flatnonzero(nodes == node)[0]) for node in corners[best]]]
+    # the shape functions' local coordinates are linear in those of a triangle of corners, chord and span (nearly) too
+    return _SurfacePoint(element, nodes, shares[best] @ local, local[1:] - local[:1], edges[best])
+
+
+def _triangles(mesh: BladeMesh, side: str) -> list[np.ndarray]:
+    """Corners of the side's outer faces as triangles, shape (triangles, 3) each, without those of root and tip."""
+    ends = [np.isin(np.arange(len(mesh.points)), mesh.node_set(name)) for name in ("root", "tip")]
+    sign = {"pressure": -1.0, "suction": 1.0}[side]
+    triangles = []
+    for part in outer_faces(mesh.blocks):
+        faces = part.nodes[:, : part.corners]
+        a, b, c = (mesh.points[faces[:, number]] for number in range(3))
+        outwards = np.sum(np.cross(b - a, c - a) * mesh.normals[faces].mean(axis=1), axis=1)
+        outer = faces[(sign * outwards > 0.0) & ~np.any([end[faces].all(axis=1) for end in ends], axis=0)]
+        triangles += [outer[:, split] for split in ([0, 1, 2], [0, 2, 3])[: part.corners - 2]]
+    return triangles
+
+
+def _element_of(mesh: BladeMesh, corners: np.ndarray) -> tuple[Element, np.ndarray]:
+    for name, nodes in mesh.blocks.items():
+        rows = np.flatnonzero(np.isin(nodes, corners).sum(axis=1) == len(corners))
+        if len(rows):
+            return ELEMENTS[name], nodes[rows[0]]
+    raise AssertionError("an outer face belongs to an element")

@@ -1,0 +1,256 @@
+"""requirements of config.yaml, and their plan: what is judged, by what, and where it lies."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import nan
+from typing import Any
+
+from pydantic import Field
+
+from r37core.base.plain import to_plain
+from r37core.config import Settings, level_errors, operating_range
+from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
+from r37core.config.declaring import declared_by, si_form
+from r37core.config.section import ExtensionSection, Section
+from r37core.config.settings import contact_nodes, length_of_run
+from r37core.contact.casing import least_change
+from r37core.plans import paths
+from r37core.plans.extension import Extension, Panel
+from r37core.plans.provenance import Provenance
+from r37core.plans.stages import Stage
+from r37core.plans.sweep_plan import Sweep
+from r37core.results.datasets import FURTHER_RUNS
+from r37core.results.spectral_lines import modes_of
+from r37core.rom.naming import mode_names
+from r37studies.other_models import MODEL_FILES, ModelChoice, tip_elements
+
+from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
+
+
+@declared_by(CampbellMargin)
+class CampbellMarginSection(Section):
+    """A margin of crossings in the Campbell diagram."""
+
+
+@declared_by(Requirements)
+class RequirementsSection(Section):
+    """Requirements; a run judges each blade in each scene by them."""
+
+    campbell_margins: list[CampbellMarginSection] = Field(
+        default=[], description="Margins of crossings in the Campbell diagram"
+    )
+
+    def requirements(self) -> Requirements:
+        """The requirements in SI units."""
+        margins = tuple(si_form(CampbellMargin, margin) for margin in self.campbell_margins)
+        return si_form(Requirements, self, campbell_margins=margins)
+
+
+SECTION: ExtensionSection[RequirementsSection] = ExtensionSection(
+    "requirements",
+    RequirementsSection,
+    Field(default=RequirementsSection(), description="Requirements in operation, by which each blade and scene is judged"),
+)
+
+VERDICT, LOOKS = "<results>/verdict.csv", "<results>/{blade}/{scene}/looks.nc"
+ALL_LOOKS = f"<results>/{FURTHER_RUNS}.nc"
+
+MOST_SECONDS = 600.0
+"""CPU time (s) that the runs from rest of a verdict may take, where they are as long as they may be."""
+
+
+@dataclass(frozen=True)
+class Judged:
+    """Plan of what is judged in a run."""
+
+    sweep: Sweep
+
+    @property
+    def requirements(self) -> dict[str, Any]:
+        """The requirements, as plain values."""
+        return to_plain(self.sweep.settings.section(SECTION).requirements())
+
+    @cached_property
+    def not_looked(self) -> dict[str, str]:
+        """Reason why no further runs of a scene are done, where that is so."""
+        settings = self.sweep.settings
+        reasons = {name: "no further runs of a rotor" for name, chosen in settings.scenes.items() if chosen.scene.rotor}
+        changing = "the clearance changes within a run, of which the later revolutions alone are judged"
+        reasons |= {name: changing for name, chosen in settings.scenes.items() if chosen.scene.casing.change}
+        operating = operating_range(settings)
+        if operating is None:
+            return reasons
+        for name in settings.scenes.keys() - reasons.keys():
+            run = length_of_run(settings, name, operating.last, LONGEST)
+            if run.cpu_time * (operating.last - operating.first) / STEP > MOST_SECONDS:
+                reasons[name] = f"no further runs, which take too long with steps of {run.time_step:g} s"
+        return reasons
+
+    @cached_property
+    def looked(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene of which further runs may be needed: their runs are judged, and cover the range."""
+        settings = self.sweep.settings
+        operating, requirements = operating_range(settings), settings.section(SECTION).requirements()
+        if operating is None or not requirements.run_requirements.any:
+            return []
+        short = pairs_not_covered(settings, operating)
+        pairs = self.sweep.runs_with("rms")
+        return [pair for pair in pairs if pair not in short and pair[1] not in self.not_looked]
+
+    def coarser_model(self, wildcards: Any) -> dict[str, str]:
+        """Files of the model of a blade and scene on a mesh of half the nodes, which `snakemake tradeoff` may have made.
+
+        None of a mesh that another program made, nor of a scene with a tip line of its own.
+        """
+        settings, blade = self.sweep.settings, wildcards.blade
+        own_line = settings.scenes[wildcards.scene].tip_line == settings.structure.boundary.tip_line
+        if not settings.blades[blade].has_profiles or not own_line:
+            return {}
+        mesh, modes = settings.fidelity.mesh, settings.fidelity.reduction.fixed_interface_modes
+        nodes = mesh.nodes // 2
+        contact = min(contact_nodes(settings, blade, count) for count in (mesh.tip_elements, tip_elements(nodes)))
+        model = ModelChoice(nodes, contact, modes, "submesh")
+        return {f"coarser_{kind}": paths.fill(MODEL_FILES[kind], blade=blade, model=model.name) for kind in ("contact", "rom")}
+
+    def looks(self, made: Provenance) -> Stage:
+        """The stage of the further runs of a blade and scene."""
+        settings = self.sweep.settings
+        operating = operating_range(settings)
+        params = {
+            "scene": self.sweep.plain_scene,
+            # of a run from rest: those of the pipeline
+            "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
+            "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in RESULTS],
+            "kept": settings.fidelity.time_integration.kept,
+            "material": lambda wildcards: to_plain(settings.blades[wildcards.blade].material),
+            "yield_stress": self.sweep.yield_stress,
+            "strengths": self.sweep.strengths,
+            # nothing else moves a run
+            "requirements": to_plain(settings.section(SECTION).requirements().run_requirements),
+            "operating": to_plain(operating and replace(operating, dwell=())),
+            "clearance": lambda wildcards: self.clearance.get(wildcards.scene, nan),
+            "thickness": lambda wildcards: self.thickness.get(wildcards.scene, nan),
+            "error": lambda wildcards: level_errors(settings, [(wildcards.blade, wildcards.scene)])[0],
+            "provenance": made.sweep,
+        }
+        return Stage("r37studies.requirements.steps.look", params)
+
+    @property
+    def volumes(self) -> list[str]:
+        """Files that say the volume of each blade in `densities`: its geometry, or the mesh of another program."""
+        blades = self.sweep.settings.blades
+        patterns = {name: paths.GEOMETRY if blades[name].has_profiles else paths.MESH for name in self.densities}
+        return [paths.fill(pattern, blade=name) for name, pattern in patterns.items()]
+
+    @property
+    def densities(self) -> dict[str, float]:
+        """Density (kg/m3) of each blade whose volume is known: of all but those given by matrices."""
+        blades = self.sweep.settings.blades.items()
+        return {name: blade.material.density for name, blade in blades if blade.material is not None and not blade.is_matrices}
+
+    @property
+    def clearance(self) -> dict[str, float]:
+        """Clearance (m) of each scene where it is the same at every speed."""
+        casings = {name: chosen.scene.casing for name, chosen in self.sweep.settings.scenes.items()}
+        constant = {name: casing for name, casing in casings.items() if not casing.changes_with_speed}
+        return {name: casing.clearance + least_change(casing) for name, casing in constant.items()}
+
+    @property
+    def thickness(self) -> dict[str, float]:
+        """Thickness (m) of the lining of each scene that has one."""
+        return {name: lining.thickness for name, lining in self.sweep.settings.linings.items()}
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The list of what lies in the operating range, and the verdict, where there are requirements."""
+    once: paths.Wildcards = [{}] if operating_range(sweep.settings) else []
+    judged = sweep.settings.section(SECTION).requirements().any
+    looked: paths.Wildcards = [{}] if Judged(sweep).looked else []
+    return {VERDICT: once if judged else [], ALL_LOOKS: looked, "<results>/operating.csv": once}
+
+
+def can_be_judged(settings: Settings) -> None:
+    """Requirements have an operating range, and their crossings are in the Campbell diagram."""
+    requirements, document = settings.section(SECTION).requirements(), settings.documents.config
+    if not requirements.any:
+        return
+    operating = operating_range(settings)
+    if operating is None:
+        raise document.refusal(
+            ("requirements",), "requirements without operating", "operating: with idle and redline beside them"
+        )
+    modes = mode_names(settings.config.campbell.modes)
+    asked: set[tuple[str, int]] = set()
+    for number, margin in enumerate(requirements.campbell_margins):
+        place = ("requirements", "campbell_margins", number)
+        parts = modes_of(margin.mode)
+        if not set(parts) <= set(modes) or len(parts) > len(set(parts)) or len(parts) > 2:
+            raise document.refusal((*place, "mode"), f"'{margin.mode}'", f"{', '.join(modes)}, or two of them as 7-5 or 5+7")
+        if not margin.engine_orders:
+            raise document.refusal((*place, "engine_orders"), "none", "one or more engine orders")
+        engine_order_is_known(settings, (*place, "engine_orders"), max(margin.engine_orders))
+        for order in margin.engine_orders:
+            if (margin.mode, order) in asked:
+                raise document.refusal((*place, "engine_orders"), f"{order} of {margin.mode} twice", "each once")
+            asked.add((margin.mode, order))
+        # a crossing above the diagram is not known, and may be too near
+        needed = max([dwell.stop for dwell in operating.dwell] or [operating.last]) / (1.0 - min(margin.least, 0.99))
+        if settings.structure.maximum_speed_rad_s < needed:
+            reach = f"{100.0 * margin.least:g}, for which crossings up to {needed:.6g} rad/s count"
+            allowed = (
+                f"a margin within structure.maximum_speed_rad_s ({settings.structure.maximum_speed_rad_s:g}), or that larger"
+            )
+            raise document.refusal((*place, "at_least_percent"), reach, allowed)
+
+
+def remarks(settings: Settings) -> list[str]:
+    """Which blades and scenes are not run over the whole operating range, and how many further runs a verdict may need."""
+    operating, lines = operating_range(settings), []
+    if operating is None:
+        return []
+    if short := pairs_not_covered(settings, operating):
+        named = ", ".join(f"{blade} in {scene}" for blade, scene in short[:3]) + (", ..." if len(short) > 3 else "")
+        reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
+        lines.append(f"operating: the speeds of {named} do not reach over {reach}; what is judged there is not known")
+    lines += _not_told(settings)
+    if looked := Judged(Sweep(settings)).looked:
+        runs = f"up to about {most_further_runs(operating)} further runs of each blade and scene ({len(looked)})"
+        lines.append(f"requirements: {runs} that does not fail clearly")
+    return lines
+
+
+def _not_told(settings: Settings) -> list[str]:
+    """Requirements that no run of some blades and scenes can tell, for want of a result or of strengths."""
+    requirements, sweep, lines = settings.section(SECTION).requirements(), Sweep(settings), []
+    pairs = sweep.runs_with("rms")
+    lined = [pair for pair in pairs if pair[1] in settings.linings]
+    weak = [name for name in settings.blades if not settings.blades[name].strengths.are_known]
+    for name, result, asked in (
+        ("above_yield", "stress", pairs),
+        ("goodman_share", "fatigue", pairs),
+        ("used_lining", "wear", lined),
+    ):
+        if getattr(requirements, name) is None:
+            continue
+        scenes = dict.fromkeys(scene for blade, scene in asked if (blade, scene) not in sweep.runs_with(result))
+        if scenes:
+            lines.append(f"requirements: {name} cannot be told without {result} among the results of {', '.join(scenes)}")
+        if result == "fatigue" and weak:
+            strengths = "material.fatigue_strength_pa and ultimate_strength_pa"
+            lines.append(f"requirements: {name} cannot be told of {', '.join(weak)} without {strengths}")
+    lacking = [name for name in settings.blades if not settings.blades[name].strengths.have_line]
+    if requirements.miner_sum is not None and lacking:
+        lines.append(f"requirements: miner_sum cannot be told of {', '.join(lacking)} without material.fatigue_exponent")
+    return lines
+
+
+EXTENSION = Extension(
+    name="requirements",
+    section=SECTION,
+    checks=(can_be_judged,),
+    targets=targets,
+    offers={"verdict": VERDICT, FURTHER_RUNS: ALL_LOOKS},
+    remarks=remarks,
+    closing="r37studies.requirements.table.closing",
+    panel=Panel(VERDICT, "r37studies.requirements.table.contents", "r37studies/requirements/panel.js"),
+)

@@ -1,0 +1,123 @@
+"""The steps of requirements: further runs, what lies in the operating range, and the verdict."""
+
+from contextlib import nullcontext
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from r37core.base.dataset_file import read_dataset, write_dataset
+from r37core.base.io import as_list
+from r37core.base.plain import from_plain
+from r37core.contact.scene import Scene
+from r37core.fem.assembly import mesh_volume
+from r37core.fem.material import Material
+from r37core.machine_code.kept import content_digest
+from r37core.mesh.mesh_files import read_vtu
+from r37core.results.joining import Along, join
+from r37core.results.operating_range import OperatingRange
+from r37core.results.regions import read_judged
+from r37core.results.table_file import read_table, write_table
+from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.stress.operator import read_stress_operators
+from r37core.stress.recovery import stress_operator
+from r37core.stress.statistic import Strengths
+from r37core.sweep.parts import Parts
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37studies.agreement import disagreements
+
+from .choice import Requirements
+from .evidence import Evidence, judged_part
+from .judging import REST
+from .looks import JudgedBlade, joined_looks, looks_in, looks_of
+from .table import operating_table, verdict_table
+
+
+def look(input: Any, output: Any, params: Any) -> None:
+    """Run what could overturn the verdict on one blade and scene. Inputs: response, model, and stress. Output: looks (nc).
+
+    Inputs, of the model on a coarser mesh: coarser_contact and coarser_rom, empty where it cannot have the contact nodes.
+    Params: material, scene, choice, results, kept, yield_stress, strengths, requirements, operating, clearance, thickness,
+    error, provenance.
+    """
+    files = [input.model, *([input.stress] if hasattr(input, "stress") else [])]
+    made_of = [params.code, params.results, params.kept, *map(content_digest, files)]
+    blade = JudgedBlade(
+        read_contact_model(input.model),
+        from_plain(Scene, params.scene),
+        from_plain(IntegrationChoice, params.choice),
+        params.results,
+        params.kept,
+        params.yield_stress,
+        from_plain(Strengths, params.strengths),
+        Parts(Path(output.looks).with_suffix(""), made_of),
+        dict([next(iter(read_stress_operators(input.stress).items()))]) if hasattr(input, "stress") else None,
+    )
+    if hasattr(input, "coarser_contact") and Path(input.coarser_contact).stat().st_size:
+        made_of += [content_digest(file) for file in (input.coarser_contact, input.coarser_rom)]
+        parts, material = Parts(blade.parts.folder / "coarser", made_of), from_plain(Material, params.material)
+        # the region that decides is the same
+        operators = {name: stress_operator(read_reduced_model(input.coarser_rom), material) for name in blade.stress or {}}
+        coarser = replace(blade, model=read_contact_model(input.coarser_contact), parts=parts, stress=operators or None)
+        blade = replace(blade, coarser=coarser)
+    evidence = Evidence(
+        judged_part(read_judged(input.response)),
+        operating=from_plain(OperatingRange, params.operating),
+        clearance=params.clearance,
+        thickness=params.thickness,
+        error=params.error,
+    )
+    looks = looks_of(blade, from_plain(Requirements, params.requirements), evidence)
+    write_dataset(joined_looks(dict(looks)), output.looks, params.provenance)
+
+
+def judge(input: Any, output: Any, params: Any) -> None:
+    """Judge each blade and scene. Outputs: verdict (csv), runs (nc): the further ones from rest.
+
+    Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members,
+    motions, run_ups and measured. Params: pairs, looked (those of them with looks), not_looked (why others have none),
+    requirements, operating, densities, clearance and thickness by scene, errors (of each pair), point_contact (blades whose
+    contact acts on points).
+    """
+    files = dict(input.items())
+    shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)
+    masses = {blade: density * _volume(file) for (blade, density), file in shapes}
+    measured = read_table(files.pop("measured")) if "measured" in files else None
+    looked = zip(map(tuple, params.looked), as_list(files.pop("looks", [])), strict=True)
+    looks = {pair: looks_in(read_dataset(file)) for pair, file in looked}
+    numbers = {"clearance": params.clearance, "thickness": params.thickness, "mass": masses}
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
+    pairs = [(blade, scene) for blade, scene in params.pairs]
+    doubts = {"looks": looks, "not_looked": params.not_looked, "point_contact": params.point_contact}
+    errors = dict(zip(pairs, params.errors, strict=True))
+    table = verdict_table(pairs, requirements, operating, datasets, numbers, errors=errors, **doubts)
+    if measured is not None:
+        doubted = disagreements(measured)
+        notes = [doubted.get(pair, "") for pair in zip(table["blade"], table["scene"], strict=True)]
+        table["note"] = ["; ".join(filter(None, both)) for both in zip(table["note"], notes, strict=True)]
+    write_table(table, output.verdict, digits=6)
+    runs = {pair: looks.get(pair, {}).get(REST, xr.Dataset()) for pair in pairs}
+    join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", {}, nullcontext)
+
+
+def _volume(file: str) -> float:
+    """Volume (m3) of a blade, by its geometry or its mesh."""
+    if file.endswith(".nc"):
+        return float(read_dataset(file)["volume"])
+    mesh = read_vtu(file)
+    return mesh_volume(mesh.blocks, mesh.points)
+
+
+def list_operating(input: Any, output: Any, params: Any) -> None:
+    """List what lies in the operating range. Inputs: datasets by kind, summary. Output: table (csv).
+
+    Params: pairs, operating.
+    """
+    files = dict(input.items())
+    interactions = read_table(files.pop("summary"))
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    table = operating_table(params.pairs, from_plain(OperatingRange, params.operating), datasets, interactions)
+    write_table(table, output.table, digits=6)

@@ -1,0 +1,176 @@
+"""Designs of a search: the blade that it starts at and its scenes, with other values of some keys."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, values_of
+from r37core.blade.definition import Shape
+from r37core.config import BladeSettings, Settings, operating_range, plain, varied_settings
+from r37core.config.blades import blade_settings
+from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
+from r37core.config.families import design_entry
+from r37core.config.shape_keys import SECTION_KEYS, SHARES, ShapeKeys, neutral_value
+from r37core.contact.scene import Scene
+from r37studies.member_values import drawn, sobol_points
+from r37studies.surrogate.designs import SearchVariable
+
+from .problem import Constraint, SearchChoice
+from .section import SECTION, SearchSection
+
+FOLDER = SECTION.name
+"""Folder of the designs' files: the extension's name."""
+
+NOMINAL = "nominal"
+"""Name of the run of a design without tolerances."""
+
+_KEPT = ("stress", "static_stress", "fatigue")
+"""Results of a scene that designs have, too: what they are judged by."""
+
+
+@dataclass(frozen=True)
+class SearchDesigns:
+    """Designs of the search that `settings` ask for."""
+
+    settings: Settings
+
+    @property
+    def entry(self) -> SearchSection:
+        """Section of config.yaml."""
+        entry = self.settings.section(SECTION)
+        assert entry is not None
+        return entry
+
+    @property
+    def start(self) -> Any:
+        """The entry of blades.yaml that all designs have in common."""
+        entry = self.settings.designs.entries[self.entry.blade]
+        assert isinstance(entry, ShapeKeys)
+        return entry
+
+    @cached_property
+    def scenes(self) -> tuple[str, ...]:
+        """Scenes that the objectives and constraints are of, in the order of the run."""
+        quantities = [*self.entry.objectives.values(), *self.entry.constraints.values()]
+        named = {scene for each in quantities for scene in each.scenes or ()}
+        return tuple(scene for scene in self.settings.scene_names if scene in named)
+
+    @property
+    def start_values(self) -> list[float | None]:
+        """Values of the variables that the start has; None where neither its entry says nor a key that is left out."""
+        # all scenes that have a number agree
+        return [
+            start_value(self.start, number.key) if number.kind == BLADE else next(iter(self.values_in_scenes(number).values()))
+            for number in self.numbers
+        ]
+
+    @property
+    def numbers(self) -> list[VariedNumber]:
+        """Numbers of the variables."""
+        return list(map(VariedNumber.named, self.entry.variables))
+
+    @property
+    def change_blade(self) -> bool:
+        """True if a variable is of the blade, so that designs have models of their own."""
+        return any(number.kind == BLADE for number in self.numbers)
+
+    def values_in_scenes(self, number: VariedNumber) -> dict[str, float]:
+        """Scene -> its value of a number of scenes, of all scenes of the search that have it."""
+        known = self.scene_numbers.items() if number.kind == SCENE else ()
+        return {scene: numbers[number.key] for scene, numbers in known if number.key in numbers}
+
+    @cached_property
+    def scene_numbers(self) -> dict[str, dict[str, float]]:
+        """Numbers of each scene of the search by dotted keys."""
+        return {scene: scene_numbers(self.settings.scene_designs.entries[scene]) for scene in self.scenes}
+
+    def varied_entry(self, name: str, values: Mapping[str, float]) -> Any:
+        """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
+        return design_entry(self.entry.blade, self.start, values_of(BLADE, values), name, self.settings.designs.document)
+
+    def scene_changes(self, scene: str, values: Mapping[str, float]) -> dict[str, float]:
+        """Values of the variables that a scene has, of all `values` of variables, by dotted keys of its entry."""
+        return {key: value for key, value in values_of(SCENE, values).items() if key in self.scene_numbers[scene]}
+
+    def blade(self, name: str, values: Sequence[float] | None) -> BladeSettings:
+        """A design as a blade, the start without `values`. Raises ConfigError where its shape is impossible."""
+        blade, designs = self.entry.blade, self.settings.designs
+        if values is None or not self.change_blade:
+            return self.settings.blades[blade]
+        changed = self.varied_entry(name, dict(zip(self.entry.variables, values, strict=True)))
+        # the name is that of the start, by which tables of sweep and lean know it
+        return blade_settings(blade, {**designs.entries, blade: changed}, self.settings.root, designs.document)
+
+    def members(self, name: str, values: Sequence[float] | None) -> dict[str, dict[str, Settings]]:
+        """Scene -> the settings with a design in it: NOMINAL, and members under tolerances where an objective has a quantile.
+
+        Without `values` it is the start. Raises ConfigError and ImpossibleValueError where one of them is impossible.
+        """
+        blade = self.blade(name, values)
+        named = {} if values is None else dict(zip(self.entry.variables, values, strict=True))
+        return {scene: self._scene_members(name, blade, scene, self.scene_changes(scene, named)) for scene in self.scenes}
+
+    def _scene_members(self, name: str, blade: BladeSettings, scene: str, changes: Mapping[str, float]) -> dict[str, Settings]:
+        chosen = entry_with(self.settings.scene_designs.entries[scene], changes).scene()
+        design = f"{FOLDER}/{name}"
+        members = {NOMINAL: self._settings(blade, scene, chosen, design)}
+        for member, (other, changed) in self._under_tolerances(blade, scene, changes).items():
+            own = design if other.elastic == blade.elastic else f"member {member} of {design}"
+            members[member] = self._settings(other, scene, changed, own)
+        return members
+
+    def _settings(self, blade: BladeSettings, scene: str, changed: Scene, design: str) -> Settings:
+        """The settings with a blade and a scene, and results that designs are judged by; `design` is for messages."""
+        name, settings, shape = self.entry.blade, self.settings, blade.definition
+        if isinstance(shape, Shape) and blade.elastic != settings.blades[name].elastic:
+            blade = replace(blade, definition=shape.replaced(name=f"{name}, {design}"))
+        results = tuple(result for result in settings.results_of(name, scene) if result in _KEPT)
+        chosen = replace(settings.scenes[scene], scene=changed, results=results, stress_history_speeds=())
+        return varied_settings(settings, {name: blade}, {scene: chosen})
+
+    def _under_tolerances(
+        self, blade: BladeSettings, scene: str, scene_changes: Mapping[str, float]
+    ) -> dict[str, tuple[BladeSettings, Scene]]:
+        """Blade and scene of each member under tolerances."""
+        tolerances, scene_entry = self.entry.tolerances, self.settings.scene_designs.entries[scene]
+        if tolerances is None:
+            return {}
+        numbers, spreads = {**self.scene_numbers[scene], **scene_changes}, tolerances.spreads
+        design = {VariedNumber(SCENE, key): value for key, value in scene_changes.items()}
+        nominal = [nominal_value(number, blade, numbers) for number in spreads]
+        points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
+        return {
+            member: changed_pair(blade, scene_entry, {**design, **drawn(spreads, nominal, points[member])}) for member in points
+        }
+
+
+def start_value(entry: ShapeKeys, key: str) -> float | None:
+    """Value of a dotted key of an entry, for a share or law that is left out one that changes nothing; None without a value."""
+    first = key.split(".")[0]
+    if getattr(entry, first, None) is None and (first in SECTION_KEYS or key in SHARES):
+        return neutral_value(key)
+    return value_at(plain(entry), key)
+
+
+def choice_of(settings: Settings) -> SearchChoice:
+    """Search that the section of config.yaml asks for."""
+    designs = designs_of(settings)
+    entry, is_flown = designs.entry, operating_range(settings) is not None
+    constraints = {
+        name: Constraint(each.quantity(is_flown), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
+        for name, each in entry.constraints.items()
+    }
+    objectives = {name: each.quantity(is_flown) for name, each in entry.objectives.items()}
+    variables = tuple(SearchVariable(key, *bounds) for key, bounds in entry.variables.items())
+    return SearchChoice(variables, objectives, constraints, entry.method, entry.seed, tuple(designs.start_values))
+
+
+def designs_of(settings: Settings) -> SearchDesigns:
+    """Designs of the search of these settings, made once."""
+    return settings.made(SearchDesigns)
+
+
+def is_asked(settings: Settings) -> bool:
+    """True if this run has a search."""
+    return settings.section(SECTION) is not None

@@ -1,0 +1,107 @@
+"""The plan of a search: what its job computes with, and what is made of all its designs."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from r37core.base.plain import to_plain
+from r37core.config import Settings, operating_range, plain
+from r37core.config.settings import most_runs
+from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure
+from r37core.plans.extent import Pair
+from r37core.plans.sweep_plan import Sweep
+from r37core.sweep.driver import one_by_one
+from r37studies.carried import Carried
+
+from .checks import search_can_be_run
+from .designs import FOLDER, choice_of, designs_of, is_asked
+from .evaluation import Evaluation
+from .problem import START
+from .section import SECTION
+
+DATASET, TABLE = "<results>/search.nc", "<results>/search.csv"
+
+
+@dataclass(frozen=True)
+class Search:
+    """Plan of the search of these `settings`; methods with `wildcards` as of Sweep."""
+
+    settings: Settings
+
+    def carried(self, wildcards: Any) -> Carried:
+        """The settings, of which designs are made."""
+        return Carried(self.settings)
+
+    def made_of(self, wildcards: Any) -> list[Any]:
+        """All that a search follows from, as plain values.
+
+        Runs of other designs follow from the same as the start's.
+        """
+        settings, designs = self.settings, designs_of(self.settings)
+        start = Evaluation(settings, Path(), one_by_one, 1).runs(START, None)
+        entries = [plain(designs.start), *(plain(settings.scene_designs.entries[scene]) for scene in designs.scenes)]
+        tolerances = designs.entry.tolerances and plain(designs.entry.tolerances)
+        return to_plain([start, choice_of(settings), tolerances, operating_range(settings), entries])
+
+    def budget(self, wildcards: Any) -> list[int]:
+        """Number of designs of each round."""
+        entry = designs_of(self.settings).entry
+        more = range(entry.first, entry.designs, entry.batch)
+        return [entry.first, *(min(entry.batch, entry.designs - done) for done in more)]
+
+
+def _once(sweep: Sweep) -> paths.Wildcards:
+    return [{}] if is_asked(sweep.settings) else []
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset and the table."""
+    return dict.fromkeys((DATASET, TABLE), _once(sweep))
+
+
+def simulations(settings: Settings) -> dict[Pair, int]:
+    """Largest number of simulations of the designs and the start, by blade and scene."""
+    if not is_asked(settings):
+        return {}
+    designs = designs_of(settings)
+    entry = designs.entry
+    runs = (1 + entry.designs) * (1 + (entry.tolerances.members if entry.tolerances else 0))
+    return {(entry.blade, scene): runs * most_runs(settings, entry.blade, scene) for scene in designs.scenes}
+
+
+def remarks(settings: Settings) -> list[str]:
+    """How many simulations a search asks for."""
+    if not is_asked(settings):
+        return []
+    entry = designs_of(settings).entry
+    runs = sum(simulations(settings).values()) // (1 + entry.designs)
+    words = f"{entry.designs} designs of '{entry.blade}' in rounds of {entry.batch}"
+    return [f"search: {words}, at most {runs} simulations of each, beside those of the sweep (docs/better_blade.md)"]
+
+
+EXTENSION = Extension(
+    name=FOLDER,
+    section=SECTION,
+    checks=(search_can_be_run,),
+    members=simulations,
+    targets=targets,
+    remarks=remarks,
+    figures=(
+        Figure(
+            rule="search_designs_figure",
+            name="search_designs",
+            runs=_once,
+            draw="r37studies.search.figures.draw_designs",
+            files={"search": DATASET},
+            label="designs",
+            caption="Designs of the search; small is good. Left: the best value of each objective so far among designs that "
+            "keep all constraints, over the number of designs. Dashed: the start; dotted: the end of the first, quasi-random "
+            "designs. Right: the objectives against each other, or a single one over the rounds. Designs that break a "
+            "constraint are pale. Of those in orange no other that keeps the constraints is better in all objectives. Bars: "
+            "standard deviation by chance.",
+            category="Search",
+        ),
+    ),
+    closing="r37studies.search.dataset.closing",
+)

@@ -1,0 +1,108 @@
+"""signals.nc: signals of one blade and scene, and of all."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
+from r37core.results.closing import counted
+from r37core.results.joining import Along
+from r37core.results.variables import STATUS
+from r37core.rom.recovery_nodes import RecoveryNodes
+from r37core.time_integration.simulate import TIP_POINTS
+from r37studies.tip_timing import arrival_times
+
+from .record import Record, revolutions_of
+
+VARIABLES = {
+    "normal": Variable(("tip_point", "turn"), "m", "displacement along the casing's normal", "f4"),
+    "tangential": Variable(("tip_point", "turn"), "m", "tangential displacement, towards growing theta", "f4"),
+    "strain": Variable(("gauge", "turn"), "1", "strain of the vibration along the gauge's grid", "f4"),
+    "contact_force": Variable(("turn",), "N", "normal force on the tip, of all contact nodes; NaN without exact_modal", "f4"),
+    "clearance": Variable(("turn",), "m", "from the undeformed leading edge to casing or unworn lining", "f4"),
+    "casing_angle": Variable(("turn",), "degree", "of the undeformed leading edge, towards growing theta", "f4"),
+    "gauge_place": Variable(("gauge", "axis"), "m", "where the gauge is, in the blade's frame"),
+    "arrival_time": Variable(("tip_point", "probe", "revolution"), "s", "time at which the tip passes the probe"),
+    "arrival_displacement": Variable(
+        ("tip_point", "probe", "revolution"),
+        "m",
+        "tangential displacement that the arrival tells: radius times speed times its lateness",
+    ),
+    "status": STATUS["status"],
+}
+"""Dimensions are those beyond the run."""
+
+RUNS = Along(rows="run", dim="speed", coordinates=("blade", "scene", "speed", "speed_rpm", "interaction"))
+"""Signals of all blades and scenes: those of each speed are a run; NaN where fewer revolutions are kept."""
+
+_BLADE_AXES = ("x", "y", "z")
+AXES = {
+    "turn": Variable(("turn",), "1", "time in revolutions since the start; times 2 pi / speed in s"),
+    "revolution": Variable(("revolution",), "1", "number of the revolution", "i8"),
+    "probe": Variable(("probe",), "degree", "angle of the probe round the casing"),
+}
+
+
+def signals_dataset(
+    records: Mapping[float, Record],
+    names: Mapping[float, str],
+    gauges: Mapping[str, np.ndarray],
+    probes: Sequence[float],
+    tip: RecoveryNodes,
+) -> xr.Dataset:
+    """The records of one blade and scene by speed (rad/s), with arrivals at `probes` (degrees).
+
+    `names`: interaction at a speed, where it is one; `gauges`: place (m) of each, shape (3,); `tip`: the tip line, from leading
+    to trailing edge. All records have the same revolutions. What has no gauge or probe is left out; without records all but
+    the speeds is.
+    """
+    speeds = list(records)
+    if not speeds:
+        return xr.Dataset(coords={"speed": ("speed", np.empty(0))})
+    first = records[speeds[0]]
+    numbers = np.array(revolutions_of(first))
+    arrivals = [_arrivals(record, speed, np.radians(probes), numbers, tip) for speed, record in records.items()]
+    kept = ("normal", "tangential", "strain", "contact_force", "clearance")
+    signals = {name: [getattr(record, name).T for record in records.values()] for name in kept}
+    x, y, _ = tip.points[0]
+    values = signals | {
+        "casing_angle": [np.degrees(np.arctan2(y, x) - 2.0 * np.pi * first.turn) % 360.0] * len(speeds),
+        "gauge_place": [np.array(list(gauges.values())).reshape(-1, 3)] * len(speeds),
+        "arrival_time": [times for times, _ in arrivals],
+        "arrival_displacement": [displacements for _, displacements in arrivals],
+        "status": [int(record.status) for record in records.values()],
+        "speed": speeds,
+        "turn": first.turn,
+        "revolution": numbers,
+        "probe": probes,
+    }
+    labels = {"tip_point": list(TIP_POINTS), "gauge": np.array(list(gauges), dtype=object), "axis": list(_BLADE_AXES)}
+    dataset = dataset_of(VARIABLES, values, {"speed": SPEED, **AXES}, labels, ("speed",))
+    dataset = dataset.assign_coords(interaction=("speed", [names.get(speed, "") for speed in speeds]))
+    dataset = dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
+    return dataset if gauges else dataset.drop_dims("axis")
+
+
+def _arrivals(
+    record: Record, speed: float, probes: np.ndarray, numbers: np.ndarray, tip: RecoveryNodes
+) -> tuple[np.ndarray, np.ndarray]:
+    """Arrivals (s) and displacements (m) of both tip points, shape (2, probes, revolutions)."""
+    times = record.turn * 2.0 * np.pi / speed
+    arrivals, displacements = [], []
+    for (x, y, _), tangential in zip(tip.select([0, -1]).points, record.tangential.T, strict=True):
+        radius, theta = float(np.hypot(x, y)), float(np.arctan2(y, x))
+        arrived, rigid = arrival_times(times, tangential, radius, speed, theta - probes, numbers)
+        arrivals.append(arrived)
+        displacements.append(radius * speed * (arrived - rigid))
+    return np.array(arrivals), np.array(displacements)
+
+
+def closing(results: Path) -> str:
+    """Closing line: how many signals there are, and of which speeds."""
+    signals = read_dataset(results / "signals.nc")
+    if not signals.sizes.get("run"):
+        return "no signal, for no interaction was found"
+    ends = dict.fromkeys(f"{speed:.6g}" for speed in (signals["speed"].values.min(), signals["speed"].values.max()))
+    return f"{counted(signals.sizes['run'], 'signal')} at {' to '.join(ends)} rad/s"

@@ -1,0 +1,83 @@
+"""The preset estimate: some of the speeds of each blade and scene of the sweep, evenly spread."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import Field
+
+from r37core.config import Settings
+from r37core.config.section import ExtensionSection, Section
+from r37core.plans.extension import Extension, Figure
+from r37core.plans.extent import Pair, extents
+from r37core.time_integration.speed_run import OF_RUNS
+
+from .case import Case
+
+
+class EstimateSection(Section):
+    """Cost of a whole sweep (snakemake estimate)."""
+
+    every: int = Field(
+        default=50, ge=1, le=1_000_000, description="One of this many speeds is run, in all scenes, for every blade"
+    )
+    cores: int = Field(default=2, ge=1, le=1_000_000, description="Cores of the projected wall time")
+    workflow_s_per_job: float = Field(
+        default=0.045, ge=0, le=1000, description="CPU seconds of Snakemake itself per job, measured in a sweep of 17,514"
+    )
+
+
+SECTION = ExtensionSection("estimate", EstimateSection, EstimateSection())
+
+
+def cases(settings: Settings) -> dict[str, Case | str]:
+    """A case for each blade and scene."""
+    return {"__".join(pair): _case(settings, *pair) for pair in settings.speed_plans}
+
+
+def _case(settings: Settings, blade: str, scene: str) -> Case:
+    chosen, every = settings.scenes[scene], settings.section(SECTION).every
+    certain = settings.speed_plans[blade, scene].certain
+    # each from the middle of the part that it stands for
+    speeds = certain[min(every // 2, len(certain) - 1) :: every]
+    return Case(
+        blade,
+        chosen.tip_line,
+        chosen.scene,
+        settings.integration_choice(blade, scene, 0.0),
+        speeds,
+        results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
+        material=settings.blades[blade].material,
+        kept=settings.fidelity.time_integration.kept,
+        history_speeds=tuple(speed for speed in speeds if speed in chosen.stress_history_speeds),
+    )
+
+
+def values(settings: Settings, members: Mapping[Pair, int]) -> dict[str, Any]:
+    """How many runs each blade and scene has at most, with so many simulations of its `members`; and where they are run."""
+    section = settings.section(SECTION)
+    return {
+        "runs": {"__".join(pair): extent.at_most for pair, extent in extents(settings, members).items()},
+        "workflow_per_job": section.workflow_s_per_job,
+        "cores": section.cores,
+    }
+
+
+TABLES = {"table": "<results>/estimate.csv"}
+
+EXTENSION = Extension(
+    name="estimate",
+    section=SECTION,
+    targets=lambda _: {TABLES["table"]: [{}]},
+    figures=(
+        Figure(
+            rule="estimate_figure",
+            name="estimate",
+            draw="r37studies.trials.figures.draw_estimate",
+            files=TABLES,
+            label="cost of the sweep",
+            caption="Core hours of the whole sweep, projected from a sample of its runs, by what they are spent on.",
+        ),
+    ),
+    closing="r37studies.trials.estimate_tables.closing",
+    made_on_request=True,
+)

@@ -1,0 +1,79 @@
+"""The plan of the trials: three presets as extensions, and the files and parameters of their rules."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from r37core.base.plain import to_plain
+from r37core.config import Settings
+from r37core.plans import paths
+from r37core.rom.region_choice import EVERYWHERE
+from r37studies.other_models import MODEL_FILES, OWN_MESH, ModelChoice
+
+from . import estimate, stability, tradeoff
+from .case import Case
+
+PRESETS = {each.EXTENSION.name: each for each in (estimate, tradeoff, stability)}
+"""Command -> its module, in the order of their sections in docs/configuration.md.
+
+It has `cases`, a function of the settings that gives each case by its name, or the reason why this run cannot have it; and
+`TABLES`, files that the function `tables` of the module `{command}_tables` makes of the responses and of `values`, a function
+of the settings and of the largest number of simulations of members by blade and scene.
+"""
+
+EXTENSIONS = tuple(preset.EXTENSION for preset in PRESETS.values())
+
+RESPONSE = "<results>/{preset}/{case}.nc"
+
+
+@dataclass(frozen=True)
+class Trials:
+    """Inputs and parameters of the rules for cases, models of cases, and the tables of each preset."""
+
+    settings: Settings
+
+    def cases(self, preset: str) -> dict[str, Case | str]:
+        """Cases of a preset by name, or reasons why this run cannot have them."""
+        return self.settings.made(PRESETS[preset].cases)
+
+    def files(self, preset: str, wildcards: Any) -> list[str]:
+        """Responses of all cases that are run."""
+        run = [name for name, case in self.cases(preset).items() if isinstance(case, Case)]
+        return [paths.fill(RESPONSE, preset=preset, case=name) for name in run]
+
+    def reasons(self, preset: str, wildcards: Any) -> dict[str, str]:
+        """Case -> reason why this run cannot have it; empty for one that is run."""
+        return {name: case if isinstance(case, str) else "" for name, case in self.cases(preset).items()}
+
+    def case(self, wildcards: Any) -> Case:
+        """The case of these wildcards."""
+        case = self.cases(wildcards.preset)[wildcards.case]
+        assert isinstance(case, Case)
+        return case
+
+    def inputs(self, wildcards: Any) -> dict[str, str]:
+        """Files that a case is run from."""
+        case = self.case(wildcards)
+        if isinstance(case.model, str):
+            patterns = {"rom": paths.REDUCED_MODEL, "contact": paths.CONTACT_MODEL}
+            where = {"blade": case.blade, "tip_line": case.model}
+        else:
+            patterns, where = dict(MODEL_FILES), {"blade": case.blade, "model": case.model.name}
+        if "stress" not in case.results:
+            del patterns["rom"]
+        more = {"campbell": paths.CAMPBELL} if case.crossing else {}
+        return {kind: paths.fill(pattern, **where) for kind, pattern in (patterns | more).items()}
+
+    def shape(self, wildcards: Any) -> dict[str, str]:
+        """Files of a model's shape: the mesh of the run, or the geometry that is meshed with so many nodes."""
+        own = ModelChoice.named(wildcards.model).nodes == OWN_MESH
+        return {"mesh" if own else "geometry": paths.fill(paths.MESH if own else paths.GEOMETRY, blade=wildcards.blade)}
+
+    def reduction(self, wildcards: Any) -> dict[str, Any]:
+        """Parameters of a model: those of the run but for its choice."""
+        choice, settings, blade = ModelChoice.named(wildcards.model), self.settings, wildcards.blade
+        parts = {
+            "boundary": replace(settings.boundary_choice(blade), nodes=choice.boundary_nodes or None),
+            "reduction": replace(settings.reduction_choice(blade), fixed_interface_modes=choice.fixed_interface_modes),
+            "stress_regions": {"whole": EVERYWHERE} if choice.stress_region == "whole" else settings.stress_regions(blade),
+        }
+        return {"nodes": choice.nodes, **to_plain(parts)}

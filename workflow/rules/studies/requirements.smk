@@ -1,0 +1,63 @@
+# Requirements in operation: what lies in the operating range, further runs, and the verdict on each blade and scene.
+from r37studies.requirements.plan import ALL_LOOKS, LOOKS, VERDICT, Judged
+
+judged = Judged(sweep)
+stages |= {"looks": judged.looks(made)}
+
+
+use rule step as looks with:
+    input:
+        unpack(sweep.run_inputs),
+        unpack(judged.coarser_model),
+        response=paths.RESPONSE,
+    output:
+        looks=LOOKS,
+    log:
+        "<logs>/{blade}/{scene}/looks.log",
+    params:
+        **stage(stages["looks"]),
+
+
+use rule step as verdict with:
+    input:
+        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue", "wear")},
+        **members,
+        **more_motions,
+        **run_up_dataset,
+        **offered("measured", sweep),
+        campbell=rules.campbell_of_all.output[0],
+        volumes=judged.volumes,
+        looks=paths.filled({LOOKS: paths.run_keys(judged.looked)}),
+    output:
+        verdict=shown(VERDICT, SOURCE / "r37studies/requirements/report.rst", TOGETHER, "verdict"),
+        runs=ALL_LOOKS,
+    log:
+        "<logs>/verdict.log",
+    params:
+        **step("r37studies.requirements.steps.judge"),
+        pairs=sweep.runs_with("rms"),
+        looked=judged.looked,
+        not_looked=judged.not_looked,
+        errors=level_errors(settings, sweep.runs_with("rms")),
+        point_contact=blades_on_points(settings),
+        requirements=judged.requirements,
+        operating=operating,
+        densities=judged.densities,
+        clearance=judged.clearance,
+        thickness=judged.thickness,
+
+
+use rule step as operating with:
+    input:
+        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
+        **further_runs,
+        campbell=rules.campbell_of_all.output[0],
+        summary=rules.summary.output[0],
+    output:
+        table="<results>/operating.csv",
+    log:
+        "<logs>/operating.log",
+    params:
+        **step("r37studies.requirements.steps.list_operating"),
+        pairs=sweep.runs_with("rms"),
+        operating=operating,

@@ -1,0 +1,62 @@
+# Motions that a start from rest does not show: a job sweeps up or down with the state carried on, another one dwells.
+from r37studies.second_motions import plan as motions_plan
+
+motion_pairs = motions_plan.pairs_of(settings)
+motion_files = motions_plan.motion_keys(motion_pairs)
+
+
+use rule step as second_motion_sweep with:
+    input:
+        unpack(sweep.run_inputs),
+        runs=lambda wildcards: motions_plan.finished_runs(sweep, wildcards),
+    output:
+        response=motions_plan.RESPONSE,
+        states=motions_plan.STATES,
+    log:
+        "<logs>/{blade}/{scene}/second_motions_{motion}.log",
+    wildcard_constraints:
+        motion="|".join(motions_plan.MOTIONS),
+    params:
+        **step("r37studies.second_motions.steps.carry"),
+        **motions_plan.parameters(sweep),
+        motion=lambda wildcards: wildcards.motion,
+        results=lambda wildcards: motions_plan.results(sweep, wildcards),
+        kept=settings.fidelity.time_integration.kept,
+        yield_stress=sweep.yield_stress,
+        strengths=sweep.strengths,
+        provenance=made.sweep,
+
+
+use rule step as second_motion_dwells with:
+    input:
+        model=sweep.contact_model,
+        states=expand(motions_plan.STATES, motion=motions_plan.MOTIONS, allow_missing=True),
+    output:
+        dwells=motions_plan.DWELLS,
+    log:
+        "<logs>/{blade}/{scene}/second_motions_dwells.log",
+    params:
+        **step("r37studies.second_motions.steps.dwell"),
+        **motions_plan.parameters(sweep),
+        dwell=to_plain(settings.section(motions_plan.SECTION).dwells()),
+        provenance=made.sweep,
+
+
+use rule step as second_motions_tables with:
+    input:
+        responses=paths.filled({motions_plan.RESPONSE: motion_files}),
+        states=paths.filled({motions_plan.STATES: motion_files}),
+        dwells=paths.filled({motions_plan.DWELLS: paths.run_keys(motion_pairs)}),
+    output:
+        motions=motions_plan.DATASET,
+        dwells=motions_plan.ALL_DWELLS,
+        ranges=shown(motions_plan.TABLE, SOURCE / "r37studies/second_motions/report.rst", TOGETHER, "second motions"),
+        verdicts=motions_plan.DWELL_TABLE,
+    log:
+        "<logs>/second_motions_tables.log",
+    params:
+        **step("r37studies.second_motions.steps.join"),
+        pairs=motion_pairs,
+        blades=list(settings.blades),
+        scenes=list(settings.scenes),
+        fidelity=settings.fidelity_name,

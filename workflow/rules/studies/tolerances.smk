@@ -1,0 +1,57 @@
+# Tolerances: members of each blade and scene, with other values of what is never known exactly, and what is made of them.
+from r37studies.tolerances import plan as tolerances_plan
+from r37studies.tolerances.plan import Tolerances
+
+tolerances = settings.made(Tolerances)
+
+
+# on the cores that are free, for its members and their speeds; what it had done is there when it is started again
+use rule step as tolerance_members with:
+    input:
+        prepared=paths.INTEGRATION_STAMP,
+        models=sweep.models,
+        campbell=paths.CAMPBELL,
+    output:
+        members=tolerances_plan.MEMBERS,
+    log:
+        "<logs>/tolerances/{blade}/{scene}/members.log",
+    priority: 3
+    threads: lambda wildcards: tolerances.simulations[wildcards.blade, wildcards.scene]
+    resources:
+        mem_mb=lambda wildcards, threads: 500 * threads,
+    params:
+        **step("r37studies.tolerances.steps.run"),
+        sweeps=tolerances.sweeps,
+        speeds=tolerances.speeds,
+        structure=tolerances.structure,
+        about=tolerances.about,
+        provenance=made.sweep,
+
+
+use rule step as tolerances_dataset with:
+    input:
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.sample.pairs)}),
+    output:
+        dataset=tolerances_plan.DATASET,
+    log:
+        "<logs>/tolerances_dataset.log",
+    params:
+        **step("r37studies.tolerances.steps.join"),
+        samples=tolerances.samples,
+        numbers=[number.key for number in tolerances.sample.numbers],
+        fidelity=settings.fidelity_name,
+
+
+use rule step as tolerance_table with:
+    input:
+        **tolerances.nominal,
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.sample.pairs)}),
+        rounds=tolerances.first_rounds,
+    output:
+        table=shown(tolerances_plan.TABLE, SOURCE / "r37studies/tolerances/report.rst", TOGETHER, "tolerances"),
+    log:
+        "<logs>/tolerance_table.log",
+    params:
+        **step("r37studies.tolerances.steps.table"),
+        samples=tolerances.samples,
+        choice=plain(settings.config.interactions),
