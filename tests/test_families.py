@@ -66,6 +66,9 @@ def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades
     drawn = Sweep(settings).drawn["blade"]
     assert drawn == ["Ref", "Sweep_-50", "Sweep_-10", "Sweep_30", "Sweep_70", "Sweep_110", "Sweep_150"]
     assert [names["blade"] for names in targets(Sweep(settings))["<results>/figures/response_{blade}.png"]] == drawn
+    (overview,) = (figure for figure in FIGURES if figure.rule == "comparison_figure")
+    parameters = drawing(SimpleNamespace(step=lambda *_: {}), None, overview, Sweep(settings))
+    assert parameters["caption"]({"scene": "direct"}).endswith("diverged. 7 of 102 blades are drawn.")
 
 
 def test_a_grid_has_every_value_with_every_other(with_blades):
@@ -394,6 +397,8 @@ def test_what_is_compared_and_drawn(with_scenes, config_copy):
 def test_scenes_of_a_family_are_drawn_beside_others_six_at_most(with_scenes):
     few = Sweep(with_scenes(ROOM, scenes=["Room", "direct"], blades=["Ref"]))
     assert few.drawn["scene"] == few.settings.scene_names and "direct" in few.drawn["scene"]
+    files = targets(few)
+    assert [names["scene"] for names in files["<results>/figures/comparison_{scene}.png"]] == few.settings.scene_names
     thick = ROOM.replace("Room", "Wide").replace("lining.thickness_m: [", "lining.thickness_m: [0.0011, 0.0012, 0.0013, ")
     many = Sweep(with_scenes(thick, scenes=["Wide", "direct"], blades=["Ref"]))
     designs = [scene for scene in many.settings.scene_names if scene != "direct"]

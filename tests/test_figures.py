@@ -1,6 +1,7 @@
 """Figures: captions, sizes that print as they are, one colour per blade everywhere, and what the new ones show."""
 
 import re
+from functools import partial
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -22,6 +23,9 @@ from r37core.time_integration.status import RunStatus
 
 BLADES, SCENES = ["Ref", "L50", "S100"], ["abradable", "direct"]
 SPEEDS = np.arange(750.0, 2000.1, 25.0)
+
+
+draw_comparison = partial(comparison.draw_comparison, below=0.02, above=0.06)
 
 
 @pytest.fixture(scope="module")
@@ -92,11 +96,13 @@ def drawn(datasets):
     """Every figure of the sweep, by name."""
     figures = {}
     of = {kind: data.sel(blade="Ref") for kind, data in datasets.items()}
+    lined = {kind: data.sel(scene="abradable") for kind, data in datasets.items() if kind != "campbell"}
     figures["campbell"] = campbell_diagram.draw_campbell(of["campbell"], "Ref")
     figures["interactions"] = draw_interactions(datasets)
     figures["response"] = response_curves.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
     figures["spectrum"] = map_of(datasets, "spectrum", maps.draw_spectral_map)[0]
     figures["wear"] = map_of(datasets, "wear", maps.draw_wear_map)[0]
+    figures["comparison"] = draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
     return figures
 
 
@@ -108,6 +114,7 @@ def test_figures_print_on_a_page_with_letters_to_read_and_have_rpm_beside_every_
         texts = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
         assert min(text.get_fontsize() for text in texts) >= 6.0, name
         labels = [text.get_text() for text in figure.findobj(Text)]
+        # percent of each blade's own crossing is no speed
         assert ("rpm" in labels) == any("rad/s" in label for label in labels), name
 
 
@@ -180,7 +187,11 @@ def test_a_blade_has_one_colour_everywhere(drawn, root):
 def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
     """Also of a picture that is rendered, which has the size of a page."""
     plt.imsave(tmp_path / "blades.png", np.linspace(0.0, 1.0, 30 * 60 * 3).reshape(30, 60, 3))
-    for draw in (lambda: draw_interactions(datasets), lambda: style.picture_figure(tmp_path / "blades.png")):
+    of_scene = datasets["rms"].sel(scene="direct")
+    for draw in (
+        lambda: draw_comparison(datasets["campbell"], of_scene, None, "direct"),
+        lambda: style.picture_figure(tmp_path / "blades.png"),
+    ):
         found = []
         for name in ("one", "two"):
             files, figure = [tmp_path / f"{name}.png", tmp_path / f"{name}.pdf"], draw()
@@ -193,10 +204,11 @@ def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
 
 
 def test_blades_of_several_materials_have_a_yield_line_each(datasets):
-    """Dashed lines at their stress (GPa), and the texts beside them."""
+    """Dashed lines of the last panel at their stress (GPa), and the texts beside them."""
+    lined = {kind: datasets[kind].sel(scene="abradable") for kind in ("rms", "stress")}
     for limits, heights, texts in (([1.38e9] * 3, [1.38], []), ([1.38e9, 0.9e9, 1.38e9], [0.9, 1.38], ["L50", "Ref, S100"])):
-        axes = plt.figure().add_subplot()
-        style.yield_lines(axes, dict(zip(BLADES, limits, strict=True)))
+        stress = lined["stress"].assign(yield_stress=("blade", limits))
+        axes = draw_comparison(datasets["campbell"], lined["rms"], stress, "abradable").axes[-1]
         dashed = [line for line in axes.lines if line.get_linestyle() == "--" and line.get_color() == "0.3"]
         assert [float(line.get_ydata()[0]) for line in dashed] == pytest.approx(heights)
         assert [text.get_text() for text in axes.texts] == texts
@@ -237,15 +249,19 @@ def test_stress_is_a_band_from_the_median_to_the_largest_of_the_later_revolution
     }
     for name in ("median", "ever"):
         of["stress"][f"max_von_mises_{name}"].loc["abradable", 900.0] = np.nan
-    figure, stress = response_curves.draw_response("Ref", None, of["rms"], of["stress"]), of["stress"].sel(scene="abradable")
-    assert [axes.get_ylim()[0] for axes in figure.axes[:3]] == [0.0] * 3
-    axes = figure.axes[2]
-    median, largest = (line.get_ydata() for line in axes.lines[:2])
-    assert median.max() == pytest.approx(1e-9 * float(stress["max_von_mises_median"].max()))
-    np.testing.assert_allclose(largest, 2.0 * median)
-    assert len(median) >= 1
-    assert axes.get_ylabel() == "von Mises (GPa)\nmedian to largest\nairfoil"
-    assert any(isinstance(one, PolyCollection) for one in axes.collections)
+    lined = {kind: datasets[kind].sel(scene="abradable") for kind in ("rms", "stress")}
+    for figure, stress, number in (
+        (response_curves.draw_response("Ref", None, of["rms"], of["stress"]), of["stress"].sel(scene="abradable"), 0),
+        (draw_comparison(datasets["campbell"], lined["rms"], lined["stress"]), lined["stress"].sel(blade="Ref"), 0),
+    ):
+        assert [axes.get_ylim()[0] for axes in figure.axes[:3]] == [0.0] * 3
+        axes = figure.axes[2]
+        median, largest = (line.get_ydata() for line in axes.lines[2 * number : 2 * number + 2])
+        assert median.max() == pytest.approx(1e-9 * float(stress["max_von_mises_median"].max()))
+        np.testing.assert_allclose(largest, 2.0 * median)
+        assert len(median) >= 1
+        assert axes.get_ylabel() == "von Mises (GPa)\nmedian to largest\nairfoil"
+        assert any(isinstance(one, PolyCollection) for one in axes.collections)
 
 
 def ranking(*rows):
@@ -297,6 +313,41 @@ def test_ranks_are_among_blades_of_one_contact_and_of_many_blades_some_are_left_
     many = comparison.draw_ranking(ranking(*((f"blade_{number}", "x", 1 + number, float(number)) for number in range(90))))
     named = [f"{1 + number}  blade_{number}" for number in range(90)]
     assert ticks(many.axes[0]) == [*named[:30], "  (30 more)", *named[60:]]
+
+
+def test_comparison_takes_the_order_that_most_blades_meet(datasets):
+    assert comparison.shared_order(datasets["campbell"], 750.0, 2000.0) == 4
+    assert comparison.shared_order(datasets["campbell"], 750.0, 1300.0) == 5
+    assert comparison.shared_order(datasets["campbell"], 750.0, 800.0) is None
+    # where no blade meets one there is a figure nevertheless
+    alone = draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="direct", speed=[750.0, 775.0]), None, "direct")
+    assert alone.axes[0].texts[0].get_text().startswith("no crossing of 1B was run")
+
+
+def test_comparison_is_over_each_blade_s_own_crossing(datasets):
+    of_scene = {kind: datasets[kind].sel(scene="abradable") for kind in ("rms", "stress")}
+    figure = draw_comparison(datasets["campbell"], of_scene["rms"], of_scene["stress"], "abradable")
+    curves = {line.get_label(): line for line in figure.axes[0].lines if line.get_label() in BLADES}
+    for blade, line in curves.items():
+        x, y = line.get_data()
+        assert x.min() >= -2.0 and x.max() <= 6.0
+        crossing = float(datasets["campbell"]["crossing_speed"].sel(blade=blade, mode="1B", engine_order=4))
+        speed = crossing * (1.0 + 0.01 * float(x[np.argmax(y)]))
+        assert abs(speed - 1.02 * crossing) < 25.0
+
+
+def test_comparison_marks_runs_that_diverged(datasets):
+    """Also of a blade none of whose runs ended."""
+    of_scene = datasets["rms"].sel(scene="abradable").copy(deep=True)
+    of_scene["status"][1] = RunStatus.DIVERGED
+    of_scene["rms_normal"][1] = of_scene["rms_tangential"][1] = np.nan
+    figure = draw_comparison(datasets["campbell"], of_scene, None, "abradable")
+    for axes in figure.axes:
+        (crosses,) = (line for line in axes.lines if line.get_marker() == "x")
+        x = crosses.get_xdata()
+        assert len(x) == 5 and x.min() >= -2.0 and x.max() <= 6.0
+        assert crosses.get_color() == style.blade_styles(BLADES)[BLADES[1]]["color"]
+    assert {BLADES[1], "diverged"} <= {text.get_text() for text in figure.legends[0].get_texts()}
 
 
 def test_interactions_are_circles_whose_area_is_their_length_above_yield(datasets):

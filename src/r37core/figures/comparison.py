@@ -1,14 +1,17 @@
-"""Blades compared by their speeds above yield, scene by scene."""
+"""Blades compared: around an interaction that they share, and by their speeds above yield, scene by scene."""
 
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.results.datasets import with_further_runs
 from r37core.rom.reduction_choice import LINEAR
+from r37core.time_integration.status import RunStatus
 
 from . import style
 
@@ -22,6 +25,72 @@ _LENGTHS = {
     _IN_MOST: "in most revolutions",
 }
 """Lengths above yield, each a bar on the one before, and what they are called."""
+
+
+def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
+    """The engine order whose crossings with 1B most blades have between `low` and `high` (rad/s), of several the lowest.
+
+    None where no blade has any.
+    """
+    crossing = campbell["crossing_speed"].sel(mode="1B")
+    count = ((crossing >= low) & (crossing <= high)).sum("blade").values
+    return int(campbell["engine_order"].values[int(np.argmax(count))]) if count.max() else None
+
+
+def draw_comparison(
+    campbell: xr.Dataset,
+    rms: xr.Dataset,
+    stress: xr.Dataset | None = None,
+    title: str = "",
+    further_runs: xr.Dataset | None = None,
+    *,
+    below: float,
+    above: float,
+) -> Figure:
+    """All blades in one scene about their crossing of 1B with the engine order that most of them meet.
+
+    Speeds are those above the crossing, as shares of it: the crossings of the blades lie hundreds of rad/s apart. The
+    picture reaches from `below` to `above` the crossing, as shares too: where peaks are looked for. Runs that diverged are
+    crosses of the blade's colour at the upper edge. `further_runs`: of a verdict.
+    """
+    rms = with_further_runs("rms", rms, further_runs)
+    stress = None if stress is None else with_further_runs("stress", stress, further_runs)
+    styles = style.blade_styles(rms["blade"].values)
+    order = shared_order(campbell, float(rms["speed"].min()), float(rms["speed"].max()))
+    panels_of = {"rms, normal (mm)": 1e3 * rms["rms_normal"].sel(tip_point="leading_edge")}
+    panels_of["rms, tangential (mm)"] = 1e3 * rms["rms_tangential"].sel(tip_point="leading_edge")
+    if stress is not None:
+        panels_of[style.stress_label(stress)] = stress["max_von_mises_median"]
+    figure, panels = plt.subplots(len(panels_of), 1, figsize=(style.PAGE, 1.9 * len(panels_of) + 0.5), sharex=True)
+    for axes, (label, values) in zip(panels, panels_of.items(), strict=True):
+        for blade in values["blade"].values if order else []:
+            crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=order))
+            about = slice((1.0 - below) * crossing, (1.0 + above) * crossing)
+            curve = values.sel(blade=blade, speed=about).dropna("speed")
+            status = rms["status"].sel(blade=blade, speed=about)
+            diverged = status["speed"].values[status.values == RunStatus.DIVERGED]
+            if curve.size or len(diverged):
+                above_crossing = 100 * (curve["speed"] / crossing - 1.0)
+                if stress is not None and axes is panels[2]:
+                    runs = stress.sel(blade=blade, speed=curve["speed"])
+                    style.stress_band(axes, above_crossing, runs, str(blade), **styles[str(blade)])
+                else:
+                    axes.plot(above_crossing, curve, marker=".", markersize=3, label=str(blade), **styles[str(blade)])
+                style.mark_diverged(axes, 100 * (diverged / crossing - 1.0), styles[str(blade)]["color"])
+        axes.axvline(0.0, color="0.5", linewidth=0.8, linestyle=":")
+        axes.set_ylabel(label)
+    if stress is not None:
+        style.yield_lines(panels[-1], stress["yield_stress"].to_series(), named=True, linear=style.is_linear(stress))
+    for axes in panels:
+        axes.set_ylim(bottom=0.0)
+    if order:
+        panels[-1].set_xlabel(f"speed above the crossing of 1B with engine order {order} (%)")
+    else:
+        style.say(panels[0], "no crossing of 1B was run: see the figures of each blade")
+    panels[0].set_title(f"blades in scene {title}")
+    if panels[0].lines[:-1]:
+        figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
+    return figure
 
 
 def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> Figure:

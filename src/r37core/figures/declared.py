@@ -18,6 +18,11 @@ def _stress(sweep: Sweep, wildcards: Any) -> str | list[str]:
     return STRESS if any(shown <= run.items() for run in runs) else []
 
 
+def _about_crossings(sweep: Sweep) -> dict[str, Any]:
+    interactions = sweep.settings.config.interactions
+    return {"below": interactions.below, "above": interactions.above, "drawn": {"blade": sweep.drawn["blade"]}}
+
+
 BLADES = "The blades, seen from the side, each in its colour of all figures. The arrow shows the rotation, LE the leading edge."
 """Caption of the blades' picture, which is rendered into its file."""
 
@@ -112,6 +117,20 @@ FIGURES = (
         "alternating stress over the fatigue strength, plus the mean stress, with that of rotation, over the ultimate "
         "strength. Dots are the nodes where the stress of the first region is computed, each with its largest share of the "
         "later revolutions. Red: largest of all.",
+    ),
+    Figure(
+        rule="comparison_figure",
+        name="comparison_{scene}",
+        runs=lambda sweep: of("scene", sweep.drawn["scene"]),
+        draw="figures.comparison.draw_comparison",
+        files={"campbell": ALL_CAMPBELL, "rms": RMS, "stress": _stress},
+        offered=("further_runs",),
+        label="around an interaction",
+        caption="All blades in scene {scene} around the same interaction: 1B with the engine order that most of them meet. "
+        "Over the speed above each blade's own crossing: rms of the leading edge, normal to the casing and tangential, and "
+        "stress from the median of the later revolutions to the largest (thin), tinted above yield. Contact stiffens a blade, "
+        "so peaks lie above the crossing. Crosses at the upper edge: runs that diverged.",
+        arguments=_about_crossings,
     ),
     Figure(
         rule="ranking_figure",
