@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from test_interactions import CHOICE, campbell
 
-from r37core.results.columns import MOST_REVOLUTIONS, ROBUSTNESS, SOME_REVOLUTIONS, names
+from r37core.results.columns import MOST_REVOLUTIONS, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import DEVIATIONS, Exceedance, SpeedRange, exceedance_of, joined, length_of, ranges_above
 from r37core.results.interactions import find_interactions
@@ -162,7 +162,9 @@ def test_a_row_of_direct_contact_is_a_range_and_has_no_mode():
     found = find_interactions(response(speeds, drawn(rising(speeds), speeds), motion), None, CHOICE)
     (row,) = [one for one in found if one["length_most_revolutions_rad_s"] > 0.0]
     assert row["mode"] == "" and "not named" in row["note"]
-    assert np.isnan(row["campbell_speed_rad_s"])
+    # the motion is halved, and no less, where the range ends
+    nothing = ("campbell_speed_rad_s", "fall_speed_rad_s")
+    assert np.isnan([row[name] for name in nothing]).all()
     assert row["most_revolutions_from_rad_s"] == pytest.approx(1050.0, abs=8.0)
     assert row["most_revolutions_to_rad_s"] == pytest.approx(1300.0, abs=5.0)
     assert row["some_revolutions_from_rad_s"] < row["most_revolutions_from_rad_s"]
@@ -184,6 +186,37 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     assert np.isnan(rows[0]["some_revolutions_from_scatter_rad_s"])
 
 
+def test_the_motion_falls_where_it_stays_down():
+    """Down at the next speed; and back up at most 24 rad/s, of which the range of chance is, above the first that is down."""
+    speeds = np.arange(1000.0, 1101.0, 2.0)
+    down, shares = np.where(speeds <= 1050.0, 1.0 + 1e-3 * speeds, 0.3), np.where(speeds < 1060.0, 1.0, 0.0)
+    for loud, fall in ((), (1051.0, 1.0)), ((1054.0,), (1053.0, 3.0)), ((1076.0,), (1064.0, 14.0)), ((1078.0,), (1051.0, 1.0)):
+        (row,) = rows_of(response(speeds, shares, np.where(np.isin(speeds, loud), 1.5, down)), [])
+        assert (row["fall_speed_rad_s"], row["fall_speed_scatter_rad_s"]) == fall
+
+
+def test_the_scatter_of_a_peak_is_of_the_five_nearest_speeds_or_of_those_within_ten():
+    """The distance from the line between the neighbours, which here lie at uneven speeds; only the peak is above yield."""
+    random = np.random.default_rng(5)
+    steps = random.uniform(12.0, 30.0, 16)
+    for scale, within in ((1.0, 5), (0.2, None)):
+        speeds, level = 1000.0 + scale * np.cumsum(steps), random.uniform(1.0, 2.0, 16)
+        level[8] = 3.0
+        one = response(speeds, np.arange(16) == 8, level / np.sqrt(2.0), lined=1)
+        (row,) = rows_of(one, [])
+        off = [abs(level[i] - np.interp(speeds[i], speeds[[i - 1, i + 1]], level[[i - 1, i + 1]])) for i in range(1, 15)]
+        away = np.abs(speeds[1:-1] - speeds[8])
+        nearest = np.argsort(away)[: within or np.count_nonzero(away <= 10.0)]
+        assert len(nearest) >= 5
+        expected = 1.4826 * np.median(np.array(off)[nearest]) / np.sqrt(1.5)
+        assert row["peak_motion_scatter_m"] == pytest.approx(expected)
+    (few,) = rows_of(response(speeds[:3], np.ones(3), np.array([1.0, 2.0, 4.0]) / np.sqrt(2.0)), [])
+    share = (speeds[1] - speeds[0]) / (speeds[2] - speeds[0])
+    assert few["peak_motion_scatter_m"] == pytest.approx(1.4826 / np.sqrt(1.5) * abs(1.0 - 3.0 * share))
+    (two,) = rows_of(response(speeds[:2], np.ones(2), np.ones(2)), [])
+    assert np.isnan(two["peak_motion_scatter_m"])
+
+
 def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_peak():
     """Two ranges, the lower motion in the first; and a peak below yield, whose row is its speed."""
     speeds = np.arange(1000.0, 1101.0, 2.0)
@@ -202,6 +235,7 @@ def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_pe
     assert (row["peak_speed_rad_s"], row["direction"]) == (1020.0, "both")
     below = find_interactions(response(speeds, np.zeros(len(speeds)), normal), None, CHOICE)
     assert [row["peak_speed_rad_s"] for row in below] == [1020.0, 1080.0]
+    assert below[1]["fall_speed_rad_s"] == 1085.0
     assert all(np.isnan(row["some_revolutions_from_rad_s"]) for row in below)
 
 
@@ -246,7 +280,7 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     every = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
     (row,) = find_interactions(every, None, CHOICE)
     assert row["status"] == "diverged" and row["engine_order"] is None
-    assert np.isnan(row["peak_motion_m"])
+    assert np.isnan([row["peak_motion_m"], row["peak_motion_scatter_m"]]).all()
     found = robustness(every)
     assert (found["length_most_revolutions_rad_s"], found["diverged_runs"]) == (100.0, 11)
     assert np.isnan(found["largest_rms_m"])
@@ -320,7 +354,9 @@ def test_one_order_over_all_scenes_is_by_the_longest_length():
     for scene in ("x", "y"):
         rows = table.loc[[(blade, scene) for blade in "ABC"]]
         assert rows["rank_over_scenes"].tolist() == [1, 2, 2]
-    assert table.loc["D", "rank_over_scenes"].isna().all()
+        assert rows["worst_rank"].tolist() == [4, 2, 2]
+        assert rows["length_over_scenes_rad_s"].tolist() == [70.0, 72.0, 81.0]
+    assert table.loc["D", names(OVER_SCENES)].isna().all(axis=None)
 
 
 def test_the_chance_to_be_better_is_of_common_members():

@@ -180,7 +180,8 @@ INTERACTIONS = (
     Column("some_revolutions_to_rad_s", f"highest speed at which {_IN_SOME}", f"{_SOME} to", place=120, scatter=True),
     Column("most_revolutions_from_rad_s", f"lowest speed at which {_IN_MOST}", f"{_MOST} from", scatter=True),
     Column("most_revolutions_to_rad_s", f"highest speed at which {_IN_MOST}", f"{_MOST} to", scatter=True),
-    Column("peak_motion_m", "normal and tangential rms together, at the peak speed", "rms, both directions"),
+    Column("peak_motion_m", "normal and tangential rms together, at the peak speed", "rms, both directions", scatter=True),
+    Column("fall_speed_rad_s", "speed above the peak at which the motion falls below half of it", "falls at", scatter=True),
     Column("note", "reason for empty columns, and where the lining is worn through"),
 )
 """Columns of summary.csv in their order.
@@ -308,6 +309,13 @@ WORST_MOTION = (
 )
 """Columns that second motions add to ranking.csv."""
 
+OVER_SCENES = (
+    Column("rank_over_scenes", "rank by the longest length in any scene; shared by what cannot be told apart"),
+    Column("worst_rank", "worst rank of the blade in any scene"),
+    Column("length_over_scenes_rad_s", "sum of the lengths above yield over all scenes", f"{_MOST}, all scenes"),
+)
+"""Columns of ranking.csv that are the same in all scenes, where there are several."""
+
 RANKING = (
     Column(
         "rank",
@@ -316,7 +324,7 @@ RANKING = (
     Column("rank_lowest", "one more than the blades that are surely better"),
     Column("rank_highest", "place where all that are not surely worse stand before it"),
     Column("contact", "contact nodes, kinematics; ranks and chances are among equals"),
-    Column("rank_over_scenes", "rank by the longest length in any scene; shared by what cannot be told apart"),
+    *OVER_SCENES,
     *ROBUSTNESS,
     *WORST_MOTION,
     Column("members", "members of the sample"),

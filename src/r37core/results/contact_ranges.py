@@ -8,14 +8,17 @@ import numpy as np
 import xarray as xr
 from scipy.signal import find_peaks, peak_widths
 
-from .columns import NOT_RESOLVED, SOME_REVOLUTIONS
+from .columns import DROP_WITHIN, NOT_RESOLVED, SOME_REVOLUTIONS
 from .danger import ranges_of, ratio_to_yield
-from .exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
+from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from .interaction import Interaction, interaction_row, range_columns
 from .measures import motion, strongest_order
 
 NO_NAME = "not named: no clear line of a spectrum lies at a mode"
 NO_PEAK = "above yield without a peak of the motion: nothing to match with a mode"
+
+_OF_NORMAL = 1.4826 / np.sqrt(1.5)
+"""Standard deviation per median distance of a value from the line between its neighbours, of normal scatter."""
 
 
 def rows_above_yield(
@@ -100,6 +103,9 @@ def _row(
         if len(inside) <= 2 and 0 < _width(level, index) <= 2:
             gap = np.diff(speeds[index - 1 : index + 2]).max()
             notes.append(f"{NOT_RESOLVED}: one or two speeds show the peak, {gap:.3g} rad/s apart")
+    if ended:
+        columns["peak_motion_scatter_m"] = _scatter(speeds, level, index)
+        columns["fall_speed_rad_s"], columns["fall_speed_scatter_rad_s"] = _fall(speeds, level, index)
     return interaction_row(response, index, response.isel(speed=inside), columns, "; ".join(notes))
 
 
@@ -109,3 +115,28 @@ def _width(level: np.ndarray, index: int) -> int:
         return 0
     _, _, left, right = peak_widths(level, [index])
     return int(np.floor(right[0]) - np.ceil(left[0])) + 1
+
+
+def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:
+    """Standard deviation of the motion about the line between its neighbours, at the speeds nearest to a place; NaN for few."""
+    if len(speeds) < 3:
+        return np.nan
+    share = (speeds[1:-1] - speeds[:-2]) / (speeds[2:] - speeds[:-2])
+    off = np.abs(level[1:-1] - (1.0 - share) * level[:-2] - share * level[2:])
+    distance = np.abs(speeds[1:-1] - speeds[index])
+    # five at least
+    near = distance <= max(HALF_WIDTH, np.sort(distance)[min(5, len(distance)) - 1])
+    return float(_OF_NORMAL * np.median(off[near]))
+
+
+def _fall(speeds: np.ndarray, level: np.ndarray, peak_index: int) -> tuple[float, float]:
+    """Speed (rad/s) above a peak from which on the motion is below half of the peak's, and half of where it is so by turns."""
+    loud = level[peak_index:] >= 0.5 * level[peak_index]
+    quiet = np.flatnonzero(~loud)
+    if not len(quiet):
+        return np.nan, np.nan
+    first = peak_index + int(quiet[0])
+    again = np.flatnonzero(loud & (speeds[peak_index:] <= speeds[first] + DROP_WITHIN))
+    last = max(first, peak_index + int(again[-1]) + 1)
+    low, high = float(speeds[first - 1]), float(speeds[min(last, len(speeds) - 1)])
+    return 0.5 * (low + high), 0.5 * (high - low)

@@ -11,7 +11,7 @@ from r37core.base.io import readable
 from r37core.base.units import si_name
 from r37core.time_integration.status import RunStatus
 
-from .columns import CHANCE, ENDS, MOST_REVOLUTIONS, OPERATING, ROBUSTNESS, SOME_REVOLUTIONS, names
+from .columns import CHANCE, ENDS, MOST_REVOLUTIONS, OPERATING, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from .danger import danger_of, moved_by_error
 from .datasets import response_in_operation, response_of
 from .exceedance import DEVIATIONS, Exceedance, SpeedRange, exceedance_of
@@ -179,7 +179,7 @@ def ranking_table(
     if members:
         table = pd.concat([table, pd.DataFrame([_member_columns(pair, members, contacts) for pair in measures])], axis=1)
     if table.loc[table["rank"].notna(), "scene"].nunique() > 1:
-        table["rank_over_scenes"] = _ranks_over_scenes(table)
+        table = pd.concat([table, _overall(table)], axis=1)
     order = ["scene", "contact", "rank", *RANKED_BY]
     return table.sort_values(order, key=lambda keys: pd.Series(pd.factorize(keys)[0]) if keys.name in order[:2] else keys)
 
@@ -211,13 +211,15 @@ def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(columns, rows.index, dtype="Int64")
 
 
-def _ranks_over_scenes(table: pd.DataFrame) -> pd.Series:
-    """Rank of the blade of each row by its longest length in any scene; none for a blade without a rank in some of them."""
+def _overall(table: pd.DataFrame) -> pd.DataFrame:
+    """OVER_SCENES of the rows of a ranking; NaN for a blade without a rank in some of the scenes."""
     ranked = table[table["rank"].notna()]
-    blades = ranked.groupby("blade")
-    worst = ranked.loc[blades[RANKED_BY[0]].idxmax()].set_index("blade")[blades.size() == ranked["scene"].nunique()]
-    ranks = pd.concat([ranks_of(rows)["rank"] for _, rows in worst.groupby("contact")])
-    return ranks.reindex(table["blade"]).set_axis(table.index)
+    blades, by = ranked.groupby("blade"), RANKED_BY[0]
+    worst = ranked.loc[blades[by].idxmax()].set_index("blade")[blades.size() == ranked["scene"].nunique()]
+    ranks = pd.concat([ranks_of(rows)["rank"] for _, rows in worst.groupby("contact")]).reindex(worst.index)
+    columns = [ranks, blades["rank"].max(), blades[by].sum()]
+    overall = pd.concat(dict(zip(names(OVER_SCENES), columns, strict=True)), axis=1).reindex(worst.index)
+    return overall.reindex(table["blade"]).set_axis(table.index)
 
 
 def read_ranking(file: Path | str) -> pd.DataFrame:
