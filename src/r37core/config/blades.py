@@ -86,7 +86,8 @@ def blades_model() -> type[RootModel[dict[str, Any]]]:
         keys = value if isinstance(value, dict) else {getattr(value, "key", "")}
         return next((kind.__name__ for key, kind in kinds.items() if key in keys), BladeEntry.__name__)
 
-    entries = [Annotated[kind, Tag(kind.__name__)] for kind in (BladeEntry, *kinds.values())]
+    models: list[type[Section]] = [BladeEntry, *kinds.values()]
+    entries = [Annotated[model, Tag(model.__name__)] for model in models]
     entry: Any = Annotated[reduce(or_, entries), Discriminator(kind_of)] if kinds else BladeEntry
 
     class Blades(RootModel[ByName[entry]]):
