@@ -106,7 +106,9 @@ use rule step as explorer with:
     log:
         "<logs>/explorer.log",
     params:
-        **step("r37core.explorer.steps.explorer", *(panel.contents.rpartition(".")[0] for panel in shown_panels.values())),
+        **step(
+            "r37core.explorer.steps.explorer", *(panel.contents.rpartition(".")[0] for panel in shown_panels.values())
+        ),
         panels={name: panel.contents for name, panel in shown_panels.items()},
         programs=programs,
         title=f"r37 {settings.config.run.name or ''}".strip(),
