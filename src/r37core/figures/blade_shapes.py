@@ -10,9 +10,7 @@ import numpy as np
 import pyvista
 from matplotlib.colors import to_rgb
 
-from r37core.base.io import readable
-
-from .offscreen import look, new_plotter, save_picture
+from .offscreen import draw_edges, look, new_plotter, read_grid, save_picture, sides, surface_of
 from .style import blade_styles
 
 _BESIDE = 0.09
@@ -31,13 +29,12 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
     plotter, styles = new_plotter(len(meshes), (440 * len(meshes), 600)), blade_styles(meshes)
     for i, (name, mesh_file) in enumerate(meshes.items()):
         plotter.subplot(0, i)
-        with readable(mesh_file):
-            grid = pyvista.read(mesh_file)
-            surface = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
+        grid = read_grid(mesh_file)
         # colours half way to white, because black letters stand on them
         light = [0.5 + 0.5 * part for part in to_rgb(styles[name]["color"])]
-        plotter.add_mesh(surface, color=light, ambient=0.35, diffuse=0.65, smooth_shading=True, split_sharp_edges=True)
-        plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
+        shading: dict[str, Any] = {"ambient": 0.35, "diffuse": 0.65}
+        plotter.add_mesh(surface := surface_of(grid), color=light, smooth_shading=True, split_sharp_edges=True, **shading)
+        draw_edges(plotter, surface)
         _mark_sense(plotter, grid)
         # below, clear of the rotation
         plotter.add_text(fill(name, _LINE), position="lower_edge", font_size=13, font_file=_LETTERS)
@@ -48,14 +45,13 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
 def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
     """An arrow along the rotation, towards negative theta, above the tip; names of it, both edges and the side in view."""
     height = float(np.ptp(grid.points[:, 0]))
-    leading, trailing, tip, pressure, suction = (
-        grid.points[np.flatnonzero(grid.point_data[name])].mean(axis=0)
-        for name in ("leading_edge", "trailing_edge", "tip", "tip_pressure_edge", "tip_suction_edge")
+    leading, trailing, tip = (
+        grid.points[np.flatnonzero(grid.point_data[name])].mean(axis=0) for name in ("leading_edge", "trailing_edge", "tip")
     )
     start = tip + height * np.array([0.12, 0.2, 0.0])
     plotter.add_mesh(pyvista.Arrow(start=start, direction=(0.0, -1.0, 0.0), scale=0.5 * height), color="black")
     # the camera looks from negative y
-    side = "pressure side" if pressure[1] < suction[1] else "suction side"
+    side, _ = sides(grid)
     middle = grid.points.mean(axis=0)
     # names stand next to the edges, where nothing lies under them
     ends = [edge + _BESIDE * height * (edge - middle) / np.linalg.norm(edge - middle) for edge in (leading, trailing)]

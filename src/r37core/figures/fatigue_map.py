@@ -5,18 +5,16 @@ from typing import Any, Final
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pyvista
 import xarray as xr
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from r37core.base.io import readable
 from r37core.results.measures import has_strengths
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.statistic import Strengths
 
-from .offscreen import look, new_plotter, rendered, without_margins
+from .offscreen import draw_edges, look, new_plotter, read_grid, rendered, sides, surface_of, without_margins
 from .style import PAGE, empty_figure
 
 _COLOUR_MAP: Final = "viridis"
@@ -53,16 +51,13 @@ def draw_fatigue(mesh: Path | str, points: np.ndarray, response: xr.Dataset, tit
     worst = response.isel(speed=int(np.nan_to_num(shares).max(axis=1).argmax()))
     alternating, mean = (worst[f"{kind}_stress"].values for kind in ("alternating", "mean"))
     share = strengths.share(alternating, mean)
-    with readable(mesh):
-        grid = pyvista.read(mesh)
-    largest = float(share.max())
-    surface = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
+    grid, largest = read_grid(mesh), float(share.max())
     figure, panels = plt.subplots(1, 4, figsize=(PAGE, _HEIGHT), layout="constrained")
     for axes in panels:
         axes.set_axis_off()
-    for number, (side, seen_from) in enumerate(zip(_sides(grid), _DIRECTIONS, strict=True)):
+    for number, (side, seen_from) in enumerate(zip(sides(grid), _DIRECTIONS, strict=True)):
         for axes, close_up in zip(panels[2 * number :], (None, points), strict=False):
-            axes.imshow(_rendered(surface, points, share, seen_from, close_up), interpolation="none")
+            axes.imshow(_rendered(grid, points, share, seen_from, close_up), interpolation="none")
         panels[2 * number].set_title(side)
         panels[2 * number + 1].set_title("region of the stress")
     bar = figure.colorbar(ScalarMappable(Normalize(0.0, largest), _COLOUR_MAP), ax=panels, shrink=0.8)
@@ -77,20 +72,14 @@ def draw_fatigue(mesh: Path | str, points: np.ndarray, response: xr.Dataset, tit
     return figure
 
 
-def _sides(grid: Any) -> tuple[str, str]:
-    """Names of the sides that are seen from negative and from positive y."""
-    pressure, suction = (grid.points[grid.point_data[f"tip_{side}_edge"] > 0, 1].mean() for side in ("pressure", "suction"))
-    return ("pressure side", "suction side") if pressure < suction else ("suction side", "pressure side")
-
-
 def _rendered(
-    surface: Any, points: np.ndarray, share: np.ndarray, seen_from: tuple[float, float, float], close_up: np.ndarray | None
+    grid: Any, points: np.ndarray, share: np.ndarray, seen_from: tuple[float, float, float], close_up: np.ndarray | None
 ) -> np.ndarray:
     """The grey blade with a dot at each of the `points`, red at the worst one; `close_up`: those to look at, None: whole."""
     plotter = new_plotter(1, _PIXELS)
     size = 5 if close_up is None else 10
-    plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
     shading: dict[str, Any] = {"ambient": 0.75, "diffuse": 0.3}
+    draw_edges(plotter, surface := surface_of(grid))
     plotter.add_mesh(surface, color="lightgrey", smooth_shading=True, split_sharp_edges=True, **shading)
     worst = points[[share.argmax()]]
     plotter.add_points(worst, color="red", point_size=2 * size, render_points_as_spheres=True)

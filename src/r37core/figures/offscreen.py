@@ -3,6 +3,7 @@
 import os
 import sys
 from pathlib import Path
+from typing import Any
 
 # VTK picks its window when first imported; this one needs neither a display nor a graphics card
 if sys.platform == "linux":
@@ -11,12 +12,34 @@ if sys.platform == "linux":
 import numpy as np
 import pyvista
 
-from r37core.base.io import atomic_write
+from r37core.base.io import atomic_write, readable
 
 
 def new_plotter(columns: int, size: tuple[int, int]) -> pyvista.Plotter:
     """An off-screen plotter with `columns` panels side by side and a window of `size` pixels."""
     return pyvista.Plotter(shape=(1, columns), off_screen=True, window_size=list(size), border=False)
+
+
+def read_grid(file: Path | str) -> Any:
+    """The mesh of a file (.vtu). Raises InputFileError where it cannot be read."""
+    with readable(file):
+        return pyvista.read(file)
+
+
+def surface_of(grid: Any) -> Any:
+    """Surface of a mesh, with its curved faces."""
+    return grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
+
+
+def draw_edges(plotter: pyvista.Plotter, surface: Any) -> None:
+    """Edges of a surface in the current panel."""
+    plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
+
+
+def sides(grid: Any) -> tuple[str, str]:
+    """Names of the sides of a blade that are seen from negative and from positive y."""
+    pressure, suction = (grid.points[grid.point_data[f"tip_{side}_edge"] > 0, 1].mean() for side in ("pressure", "suction"))
+    return ("pressure side", "suction side") if pressure < suction else ("suction side", "pressure side")
 
 
 def look(

@@ -8,15 +8,14 @@ from typing import Any, Final, NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pyvista
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from r37core.base.io import read_json, readable
+from r37core.base.io import read_json
 from r37core.figures import style
-from r37core.figures.offscreen import look, new_plotter, rendered, without_margins
+from r37core.figures.offscreen import draw_edges, look, new_plotter, read_grid, rendered, surface_of, without_margins
 from r37studies.fields import REGION_STRESS, modal_frequency, modal_stress
 
 from .worst_shapes import INDEX, LARGEST_SHOWN, blade_height
@@ -49,7 +48,7 @@ def draw_modes(folder: Path) -> Figure:
     Above coloured by the displacement as a share of its largest, below by the von Mises stress for 1 mm of it, each on a scale
     of its own.
     """
-    grid = _read(folder / "modes_0.vtu")
+    grid = read_grid(folder / "modes_0.vtu")
     names = [field.removeprefix("mode ") for field in grid.point_data if field.startswith("mode ")]
     return _draw([[_displacement(grid, name), _modal_stress(grid, name)] for name in names])
 
@@ -59,12 +58,7 @@ def draw_worst_instants(folder: Path) -> Figure:
 
     Without worst instants the picture says so.
     """
-    return _draw([[_stress(_read(folder / entry["file"]), entry)] for entry in read_json(folder / INDEX)])
-
-
-def _read(file: Path) -> Any:
-    with readable(file):
-        return pyvista.read(file)
+    return _draw([[_stress(read_grid(folder / entry["file"]), entry)] for entry in read_json(folder / INDEX)])
 
 
 def _displacement(grid: Any, mode: str) -> _Shape:
@@ -120,9 +114,8 @@ def _draw_shape(axes: Axes, shape: _Shape) -> None:
 def _rendered(shape: _Shape) -> np.ndarray:
     """The displaced blade in its colours, and the outline of the undeformed blade, as pixels."""
     shape.grid.point_data["shown"] = shape.values
-    still = shape.grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
     plotter = new_plotter(1, _PIXELS)
-    plotter.add_mesh(still.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
+    draw_edges(plotter, still := surface_of(shape.grid))
     plotter.add_mesh(
         still.warp_by_vector(shape.moved, factor=shape.factor),
         scalars="shown",
