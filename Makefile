@@ -76,8 +76,8 @@ lock: ## the newest versions that pyproject.toml allows, of all packages that th
 	mv $(LOCK).new $(LOCK)
 	rm -rf build/lock
 
-clean: $(VENV)/.ready ## list results that the configuration no longer asks for; REMOVE=yes removes them
-	$(BIN)/python -m r37core.product.leftovers $(if $(REMOVE),--remove)
+clean: $(VENV)/.ready ## list results that the configuration no longer asks for, and parts that jobs of many simulations go on from
+	@$(BIN)/python -m snakemake all_blades --list-untracked --cores 1 2>/dev/null | grep '^results/' || true
 
 clean-results: ## remove results/ and logs/
 	rm -rf results logs

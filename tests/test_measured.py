@@ -10,7 +10,6 @@ from conftest import CONFIGURATION
 import r37
 from r37core.config import ConfigError, Document
 from r37core.product.extensions import load_settings
-from r37core.product.leftovers import leftovers
 from r37core.stress.gauge import Gauge
 from r37studies.agreement import agreeing, disagreements, disagrees, groups, words
 from r37studies.measured.calibration_plan import Calibrated
@@ -301,13 +300,3 @@ def test_the_contact_length_of_a_rub_test_is_what_is_known_before(tmp_path):
     low, high = spread.log_between
     fit = r37.lining_from_rub_test(tmp_path / "rig.csv").contact_length
     assert number.name == "scene.lining.contact_length_m" and (low, high) == pytest.approx(fit.range_95)
-
-
-def test_what_a_calibration_made_is_left_over_when_it_is_no_longer_asked_for(tmp_path):
-    results = tmp_path / "results"
-    for folder in ("c0001", "fitted"):
-        (results / "calibrate" / folder).mkdir(parents=True)
-    (results / "calibration.csv").write_text("number\n")
-    assert leftovers(results, configured(tmp_path, [{}], calibrate=FRICTION)) == []
-    dropped = leftovers(results, configured(tmp_path, [{}]))
-    assert dropped == [results / "calibrate/fitted", results / "calibration.csv"]

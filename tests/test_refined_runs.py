@@ -15,8 +15,6 @@ from stubbed_runs import BLADES, REFINED, SCENES, copy_stubbed, refine, runs, si
 from workflow_runs import copy_finished, digests, kill_snakemake, lose_speed, overlay, planned_outputs, snakemake
 
 import r37
-from r37core.product.extensions import read_settings
-from r37core.product.leftovers import leftovers
 from r37core.time_integration.status import RunStatus
 
 pytestmark = pytest.mark.slow
@@ -78,17 +76,6 @@ def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
     done = simulated(snakemake(tmp_path, "tables", "--cores", "2"))
     assert set(done) == runs(COARSE) | runs(ADDED, scenes=["direct"])
     assert not list(tmp_path.glob("results/*/abradable/round_*.json"))
-
-
-def test_leftovers_are_what_no_round_asked_for(project, monkeypatch):
-    monkeypatch.chdir(project)
-    assert leftovers(project / "results", read_settings(project)) == []
-    stray = project / "results/Ref/direct/speed_1000.npz"
-    stray.write_text("")
-    assert leftovers(project / "results", read_settings(project)) == [stray]
-    # without the last round nobody knows what will be asked for
-    (project / "results/Ref/direct/round_2.json").unlink()
-    assert leftovers(project / "results", read_settings(project)) == []
 
 
 @pytest.fixture(scope="module")

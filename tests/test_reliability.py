@@ -34,8 +34,6 @@ from r37core.machine_code import kept
 from r37core.mesh.mesh_files import save_grid, vtk_grid
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.extensions import read_settings
-from r37core.product.leftovers import leftovers
-from r37core.product.leftovers import main as clean
 from r37core.product.remarks import replaced_level, source_folder
 from r37core.results.joining import add_variable, create_axis
 from r37core.rom.rotation import BucklingError
@@ -235,55 +233,6 @@ def test_another_trees_package_is_refused(root, tmp_path):
     assert source_folder(root) == (root / "src").resolve()
     with pytest.raises(ConfigError, match=r"r37core: found the package in .*; allowed: the one beside the Snakefile"):
         source_folder(tmp_path)
-
-
-def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
-    """Of blades, scenes, speeds and results; not the user's own files, nor anything of a configuration that asks for all."""
-    results, config = config_copy / "results", config_copy / "config"
-    few = {"blades": ["Ref"], "scenes": ["direct"], "speeds": [900], "exports": {"mesh_formats": ["vtu"]}}
-    settings = read_settings(config_copy, command_line_document(few))
-    assert leftovers(results, settings) == []
-    kept = ["rms.nc", "stress.nc", "spectrum.nc", "campbell.nc", "summary.csv", "configuration.json", "explorer.html"]
-    kept += ["report.zip", "notes.csv", "mine.nc", "figures/my_plot.png", "figures/campbell_Ref.pdf", "figures/blades.png"]
-    kept += [f"figures/{name}.png" for name in ("response_Ref", "spectrum_Ref__direct", "response", "comparison_direct")]
-    kept += ["Ref/contact_pressure_edge.npz", "Ref/rom_pressure_edge.nc", "Ref/direct/response.nc", "Ref/direct/speed_900.npz"]
-    kept += ["exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "cases/L50/rom.nc", "runs/x/L50/a.nc"]
-    gone = ["wear.nc", "designs.csv", "signals.nc", "Ref/direct/signals.nc", "figures/designs_Sweep.png"]
-    gone += ["figures/contact_force_Ref__direct.png", "figures/contact_force_Ref__direct.pdf", "figures/shapes_Ref.png"]
-    gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.msh", "Ref/direct/speed_901.npz"]
-    gone += ["figures/response_L50.png", "figures/comparison_abradable.pdf", "figures/wear_Ref__abradable.png"]
-    folders = ["exports/L50", "L50", "Ref/abradable", "shapes/Ref", "shapes/L50"]
-    inside = ["exports/L50/mesh.msh", "L50/mesh.vtu", "Ref/abradable/speed_900.npz", "shapes/L50/modes/modes_0.vtu"]
-    inside += [f"shapes/Ref/{name}_0.vtu" for name in ("modes/modes", "stress_direct/stress", "stress_abradable/stress")]
-    for name in [*kept, *gone, *inside]:
-        (results / name).parent.mkdir(parents=True, exist_ok=True)
-        (results / name).write_text("x")
-    found = {str(path.relative_to(results)) for path in leftovers(results, settings)}
-    assert found == {*gone, *folders}
-
-    every = {"blades": ["Ref", "L50", "Sweep"], "scenes": ["abradable", "direct"], "speeds": [900, 901]}
-    every |= {"signals": {"speeds_rad_s": [900]}, "exports": {"mesh_formats": ["vtu", "msh"]}}
-    scenes = config / "scenes.yaml"
-    scenes.write_text(scenes.read_text().replace("stress, energy]", "stress, energy, shapes]\n  tip_line: camber", 1))
-    with open(config / "blades.yaml", "a") as stream:
-        stream.write("Sweep: { base: Ref, vary: { chordwise_sweep_deg: [5] } }\n")
-    # only direct contact asks for shapes
-    left = leftovers(results, read_settings(config_copy, command_line_document(every)))
-    assert left == [results / "shapes/Ref/stress_abradable"]
-
-
-@pytest.mark.parametrize(
-    ("options", "said"), [([], "; make clean REMOVE=yes removes them"), (["--remove"], ", removed")], ids=["list", "remove"]
-)
-def test_make_clean_lists_and_removes(config_copy, monkeypatch, capsys, options, said):
-    gone = config_copy / "results/Gone"
-    gone.mkdir(parents=True)
-    monkeypatch.chdir(config_copy)
-    monkeypatch.setattr(sys, "argv", ["leftovers", *options])
-    clean()
-    listed = capsys.readouterr().out
-    assert "results/Gone" in listed and listed.endswith(f"1 left over{said}\n")
-    assert gone.exists() == (not options)
 
 
 def test_a_blade_that_buckles_is_refused_with_the_speed(contact):

@@ -16,7 +16,6 @@ from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import Named
 from r37core.config import ConfigError
 from r37core.product.extensions import read_settings
-from r37core.product.leftovers import leftovers
 from r37core.rom.rotation import BucklingError
 from r37core.stress.operator import StressOperator
 from r37core.sweep import recipe
@@ -183,17 +182,6 @@ def test_more_designs_run_alone_and_other_bounds_make_other_designs(folder, simu
     assert simulated[1:] == [f"d000{number}/abradable" for number in (0, 2, 3, 4, 5)]
     tips = other["value"].sel(variable="stagger_deg.tip")[1:]
     assert abs(tips).max() <= 2.0 and tips[0] != more["value"].sel(design="d0000", variable="stagger_deg.tip")
-
-
-def test_without_its_section_a_search_is_left_over(folder):
-    results = folder / "results"
-    for name in ("search.nc", "search/d0000/quantities.json", "search/.structures/rom.nc"):
-        (results / name).parent.mkdir(parents=True, exist_ok=True)
-        (results / name).write_text("x")
-    assert leftovers(results, read_settings(folder)) == []
-    file = folder / "config/config.yaml"
-    file.write_text(file.read_text().split("search:")[0])
-    assert leftovers(results, read_settings(folder)) == [results / "search", results / "search.nc"]
 
 
 def test_the_plan_of_a_search(folder):

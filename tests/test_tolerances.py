@@ -20,7 +20,6 @@ from r37core.config import ConfigError, Document
 from r37core.config.spread import SpreadEntry
 from r37core.figures import style
 from r37core.product.extensions import read_settings
-from r37core.product.leftovers import leftovers
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.columns import ENDS, INTERACTIONS, names
 from r37core.results.danger import danger_of, ratio_to_yield
@@ -452,18 +451,6 @@ def test_a_range_has_the_digits_that_it_bears():
     assert shown["drop"] == 0.123456 and (other["largest_stress_pa"], other["peak_speed_rad_s"]) == (3.5612e9, 1640.4)
     without = pd.DataFrame([{"peak_speed_rad_s": 1729.0}])
     pd.testing.assert_frame_equal(as_ranges_bear(without), without)
-
-
-def test_leftovers_are_members_of_blades_and_scenes_that_have_none_any_more(root, tmp_path):
-    lining = {"lining.thickness_m": {"uniform_percent": 5.0}}
-    settings = settings_of(root, {"members": 2, "blades": ["Ref"], "scenes": ["abradable"], "of_scenes": lining})
-    folder = tmp_path / "tolerances"
-    kept = ["Ref/abradable/members.nc", "Ref/abradable/1/response.nc", ".structures/rom.nc"]
-    gone = ["2", "0b", "Ref/direct", "S100", "models"]
-    for name in [*kept, *(f"{name}/file" for name in gone)]:
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text("x")
-    assert leftovers(tmp_path, settings) == sorted(folder / name for name in gone)
 
 
 @pytest.mark.parametrize("text", ["", "blade,scene\n", "a\0b", "blade,scene,mode,engine_order\nRef,lined,1B,x\n"])

@@ -51,7 +51,6 @@ TESTS = {
     "time_integration/rotor_numbers.py": "test_rotor_numbers.py test_rotor.py",
     "time_integration/problem.py": "test_run_statistics.py test_time_integration.py",
     "time_integration/speed_run.py": "test_run_statistics.py",
-    "product/leftovers.py": "test_reliability.py",
     "plans/sweep_plan.py": "test_workflow_plans.py",
     "results/": "test_results.py test_exceedance.py test_interactions.py test_measures.py test_campbell.py "
     "test_elastic_casing.py test_explorer_tables.py test_tolerances.py",

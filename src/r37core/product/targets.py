@@ -31,11 +31,6 @@ def tables(sweep: Sweep) -> list[str]:
     return [file for file in filled(targets(sweep)) if not file.startswith("<results>/figures/") and not file.endswith(".html")]
 
 
-def everything(sweep: Sweep) -> dict[str, Wildcards]:
-    """All of `targets`, and what is made on request alone."""
-    return targets(sweep) | {pattern: files for each in EXTENSIONS for pattern, files in each.all_targets(sweep).items()}
-
-
 def simulated(sweep: Sweep) -> list[str]:
     """Files of the extensions' own simulations."""
     return [file for extension in EXTENSIONS for file in filled(extension.simulated(sweep))]
