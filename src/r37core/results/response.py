@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -30,13 +31,13 @@ def write_response(
     Speeds in `stress_history_speeds`, which have recorded it, keep the largest stress of every revolution. `yield_stress` (Pa)
     and `strengths`: of the blade's material. Raises InputFileError for a file that cannot be read.
     """
-    rows, histories = [], {}
+    rows, histories, last = list[dict[str, np.ndarray]](), {}, dict[str, np.ndarray]()
     for speed, speed_file in zip(speeds, files, strict=True):
         last = run_row(read_speed(speed_file), yield_stress, strengths)
         rows.append({name: np.asarray(last[name], entry.dtype) for name, entry in VARIABLES.items() if name in last})
         if speed in stress_history_speeds:
             histories[speed] = last["revolution_von_mises"]
-    values = last | {name: np.stack([row[name] for row in rows]) for name in rows[0]} | {"speed": speeds}
+    values: dict[str, Any] = last | {name: np.stack([row[name] for row in rows]) for name in rows[0]} | {"speed": speeds}
     if histories:
         values |= {"history_speed": [*histories], "max_von_mises_history": np.stack([*histories.values()])}
         values["first_yield_revolution"] = [[first_yield(part, yield_stress) for part in each] for each in histories.values()]
