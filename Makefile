@@ -11,7 +11,7 @@ LOCK := envs/lock.txt
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint $(LOCK)
 
 .DEFAULT_GOAL := help
-.PHONY: help all_blades campbell test test-fast mutants lint validation test-validation site setup lock clean clean-results
+.PHONY: help all_blades campbell test test-fast mutants size lint validation test-validation site setup lock clean clean-results
 
 help: ## this list
 	@awk -F ': .*## ' '/^[a-z][a-z_-]*:.*## / {printf "make %-14s %s\n", $$1, $$2}' Makefile
@@ -33,6 +33,9 @@ test-fast: $(VENV)/.ready ## the tests that neither run Snakemake nor build larg
 mutants: $(VENV)/.ready ## whether the tests notice small changes of the code: about half an hour
 	$(PIP_INSTALL) --editable '.[test,mutants]'
 	$(BIN)/python validation/mutants.py $(MUTANTS)
+
+size: ## tokens of each package, of tests and validation, next to the numbers kept in pyproject.toml
+	@'$(PYTHON)' validation/size.py
 
 lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 	$(BIN)/python -m ruff check .

@@ -5,12 +5,12 @@ from itertools import permutations, product
 import gmsh
 import numpy as np
 
+from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
 from r37core.fem.write_mesh import write_mesh
 from r37core.mesh.blade_mesh import BladeMesh, parametric_node_sets
 from r37core.mesh.generate import quiet_gmsh
-from r37studies.exports.abaqus_deck import write_abaqus
 
 TITANIUM = Material(115e9, 4400.0, 0.32, 9e8)
 

@@ -73,9 +73,15 @@ def tests_of(module: str) -> str:
     return TESTS.get(module) or TESTS[f"{Path(module).parent.as_posix()}/"]
 
 
+def package_of(name: str) -> Path:
+    """Folder of the package that has a module or a folder of this name; the core's where none has it."""
+    packages = [ROOT / "src" / package for package in ("r37studies", "r37imports", "r37core")]
+    return next((package for package in packages if (package / name).exists()), packages[-1])
+
+
 def modules_of(name: str) -> list[str]:
     """The module, or those of a folder. Raises ValueError where there is none, and where no tests are known."""
-    package = ROOT / "src/r37core"
+    package = package_of(name)
     files = sorted((package / name).glob("*.py")) if (package / name).is_dir() else [package / name]
     modules = [file.relative_to(package).as_posix() for file in files if file.name != "__init__.py"]
     for module in modules:
@@ -91,9 +97,11 @@ def mutants_of(module: str, folder: Path, each: int, seconds: float, until: str 
     """
     session, settings = folder / "mutants.sqlite", folder / "mutants.toml"
     session.unlink(missing_ok=True)
-    tests = " ".join(f"tests/{name}" for name in tests_of(module).split())
+    files = (next((ROOT / "tests").glob(f"*/{name}")) for name in tests_of(module).split())
+    tests = " ".join(str(file.relative_to(ROOT)) for file in files)
+    path = (package_of(module) / module).relative_to(ROOT)
     settings.write_text(
-        f'[cosmic-ray]\nmodule-path = "src/r37core/{module}"\ntimeout = {seconds}\nexcluded-modules = []\n'
+        f'[cosmic-ray]\nmodule-path = "{path}"\ntimeout = {seconds}\nexcluded-modules = []\n'
         f"test-command = \"{sys.executable} -m pytest {until} -q --tb=no -p no:cacheprovider -m 'not slow' {tests}\"\n"
         '[cosmic-ray.distributor]\nname = "local"\n'
     )
@@ -130,7 +138,7 @@ def notices(results: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
     """Of each test that notices a mutation: how many it notices, and how many no other one does."""
     noticed, alone = Counter[str](), Counter[str]()
     for _, result in (pair for several in results.values() for pair in several):
-        tests = set(re.findall(r"^(?:FAILED|ERROR) tests/(\w+\.py(?:::\w+)*)", result.output or "", re.MULTILINE))
+        tests = set(re.findall(r"^(?:FAILED|ERROR) tests/\w+/(\w+\.py(?:::\w+)*)", result.output or "", re.MULTILINE))
         noticed.update(tests)
         alone.update(tests if len(tests) == 1 else ())
     rows = sorted((-alone[test], -number, test) for test, number in noticed.items())
@@ -165,7 +173,7 @@ def _lines_of(diff: str) -> tuple[str, str]:
 def main() -> None:
     """Run the sample and print the score."""
     parser = argparse.ArgumentParser(description="Whether the tests notice small changes of the code.")
-    parser.add_argument("modules", nargs="*", default=list(TESTS), help="modules or folders of src/r37core")
+    parser.add_argument("modules", nargs="*", default=list(TESTS), help="modules or folders of the packages")
     parser.add_argument("--each", type=int, default=6, help="mutations of each module")
     parser.add_argument("--tests", action="store_true", help="what each test notices")
     parser.add_argument("--seconds", type=float, default=300.0, help="longest time of one test run")

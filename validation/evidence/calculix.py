@@ -9,9 +9,9 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from r37core.base.io import InputFileError
+from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.material import Material
 from r37core.mesh.blade_mesh import BladeMesh
-from r37studies.exports.abaqus_deck import write_abaqus
 
 
 def displacements(mesh: BladeMesh, material: Material, steps: Sequence[str]) -> np.ndarray:

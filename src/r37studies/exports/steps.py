@@ -6,6 +6,7 @@ from typing import Any
 from r37core.base.io import JOB_LOG, as_list
 from r37core.base.plain import from_plain
 from r37core.blade.geometry_file import read_geometry
+from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.orientation import Orientation
@@ -13,7 +14,6 @@ from r37core.fem.write_mesh import write_mesh
 from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator
-from r37studies.exports.abaqus_deck import write_abaqus
 from r37studies.fields import Target, worst_instants, write_modes, write_stress
 from r37studies.step_file import write_step
 

@@ -33,7 +33,7 @@ def test_a_killed_run_leaves_no_snakemake_and_no_job(tmp_path, how, workers):
     (tmp_path / "tmp").mkdir()
     options = ["-q", "-p", "conftest", "-n", workers, "--rootdir", str(tmp_path), "test_small.py"]
     command = [sys.executable, "-m", "pytest", *options]
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent), "TMPDIR": str(tmp_path / "tmp")}
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1]), "TMPDIR": str(tmp_path / "tmp")}
     run = subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=subprocess.DEVNULL)
     wait_until(lambda: (tmp_path / "begun").exists() or run.poll() is not None, LONGEST, "the job of a small run")
     (folder,) = (tmp_path / "tmp").glob("r37_tests_*")

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from workflow_runs import copy_project, own_package
 
-EXAMPLES = sorted((Path(__file__).parent.parent / "examples").glob("*.py"))
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.py"))
 
 
 @pytest.fixture(scope="module")

@@ -336,7 +336,7 @@ def test_programs_for_any_processor_give_the_same_bits(name, own_bits):
     if missing:
         pytest.skip(f"this processor has no {', '.join(missing)}, which {name} has")
     code = "import json\nfrom integration_cases import bits_of_programs\nprint(json.dumps(bits_of_programs()))"
-    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent), "NUMBA_CPU_NAME": name}
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[1]), "NUMBA_CPU_NAME": name}
 
     command = [sys.executable, "-c", code]
     printed = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment).stdout

@@ -9,6 +9,7 @@ import pytest
 from box_mesh import box_mesh, inner_places
 from box_operator import box_operator
 
+from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.matrices import assemble, centrifugal_load, static_displacement
 from r37core.fem.quadrature import wedge_rule
@@ -17,7 +18,6 @@ from r37core.fem.stress import recovered_stress, stress_numbers
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress import operator
 from r37core.stress.revolutions import stress_cycles
-from r37studies.exports.abaqus_deck import write_abaqus
 
 pytestmark = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (apt-get install calculix-ccx)")
 

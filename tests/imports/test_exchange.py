@@ -14,6 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 from scipy import constants
 
 from r37core.base.units import LENGTH_UNITS
+from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
@@ -33,7 +34,6 @@ from r37imports.importing.meshio_reader import quietly, read_nastran, read_with_
 from r37imports.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, mesh_files
 from r37imports.placement import warn_of_size
 from r37imports.refusal import ImportRefused, MeshWarning, located
-from r37studies.exports.abaqus_deck import write_abaqus
 
 
 def source(file, **changes):

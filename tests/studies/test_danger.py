@@ -53,7 +53,7 @@ def results(root, tmp_path_factory):
     blades, scenes = fan_cases(root)
     (folder / "config/blades.yaml").write_text(yaml.safe_dump(blades))
     (folder / "config/scenes.yaml").write_text(yaml.safe_dump(scenes))
-    shutil.copy(Path(__file__).with_name("cases") / "open_variant.csv", folder)
+    shutil.copy(Path(__file__).parents[1] / "cases" / "open_variant.csv", folder)
     shutil.copy(root / "examples/fan/fan.msh", folder)
     run = {"blades": list(blades), "scenes": list(scenes), "fidelity": "draft", "speeds": [490, 1620, 1640, 1660]}
     run |= {"operating": {"idle_rad_s": 1620, "redline_rad_s": 1660}}
