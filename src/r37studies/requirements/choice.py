@@ -84,8 +84,7 @@ class Requirements:
     @property
     def any(self) -> bool:
         """True if there is one."""
-        numbers = (self.above_yield, self.goodman_share, self.miner_sum, self.used_lining, self.clearance, self.mass)
-        return bool(self.campbell_margins) or any(number is not None for number in numbers)
+        return self != Requirements()
 
 
 def most_further_runs(operating: OperatingRange) -> int:

@@ -138,11 +138,10 @@ class Evidence:
 
         `values`, shape (speeds,), of all runs: where one is infinite, so is everything up to the next runs.
         """
-        speeds, infinite = self.response["speed"].values, np.isinf(values)
+        speeds = self.response["speed"].values
         ends = (self.operating.first, self.operating.last)
         places = np.unique([*ends, *speeds[(speeds > ends[0]) & (speeds < ends[1])]])
-        inside = np.interp(places, speeds, np.where(infinite, 0.0, values))
-        inside = np.where(np.interp(places, speeds, infinite.astype(float)) > 0.0, np.inf, inside)
+        inside = np.interp(places, speeds, values)
         place = int(inside.argmax())
         return float(inside[place]), float(places[place])
 
@@ -252,7 +251,7 @@ def extended(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
 
 def worst_of(motions: xr.Dataset) -> xr.Dataset:
     """Response whose stress and wear are the largest of all motions, of a dataset over (motion, speed)."""
-    kept = motions[[name for name in (*JUDGED, *OF_ALL) if name in motions]].reset_coords(drop=True)
+    kept = judged_part(motions)
     if "motion" not in kept.dims:
         return kept
     status = kept["status"]

@@ -1,7 +1,7 @@
 """Requirements judged: the value of each, its margin, where it is worst, and how certain that is."""
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -33,8 +33,6 @@ _OF_ERROR = (HALF_STEP, COARSER_MESH)
 LARGE_CHANGES = (LOWEST_DAMPING, HIGHEST_DAMPING, FAST_RISE, SLOW_RISE, SLOWEST_RISE)
 LOOKS = (REST, HALF_FRICTION, *LARGE_CHANGES, UP, DOWN, *REPEATED)
 """Further runs of a blade in a scene; see requirements.looks."""
-
-_OTHER_MOTIONS = (UP, DOWN)
 
 GROWS = 0.5
 """Share of a limit from which a motion that still grows may come to it."""
@@ -119,7 +117,7 @@ def fails_clearly(requirements: Requirements, evidence: Evidence) -> list[str]:
     names = []
     for name, (_, factor, columns_of) in _OF_RUNS.items():
         limit = getattr(requirements, name)
-        if limit is not None and _margin(columns_of(smaller), factor * limit) < 0.0:
+        if limit is not None and _number(columns_of(smaller)) > factor * limit:
             names.append(name)
     return names
 
@@ -156,11 +154,27 @@ def _row(requirement: str, unit: str, limit: float, columns: Columns, *, is_lowe
     return dict.fromkeys(COLUMNS, np.nan) | row | columns
 
 
-def _margin(columns: Columns, limit: float) -> float:
-    """Distance of a value below its upper limit; minus infinity where the columns say that it fails, NaN if not known."""
-    if columns.get("verdict") == FAILS:
-        return -np.inf
-    return limit - float(columns.get("value", np.nan))
+def _number(columns: Columns) -> float:
+    """The value; infinite where the columns say that it fails, NaN if not known."""
+    return np.inf if columns.get("verdict") == FAILS else columns.get("value", np.nan)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A way in which runs may come out otherwise: a row of the table that a requirement on runs is judged by.
+
+    `evidence`: these runs. `has_error`: whether the error of mesh and step is in them already; `repeats`: whether the motion is
+    the same, so that its value is scatter; `is_motion`: whether it is another motion. `value`, and `raised` by the error:
+    infinite where the requirement fails without a number, NaN where they are not known.
+    """
+
+    name: str
+    evidence: Evidence
+    has_error: bool = False
+    repeats: bool = False
+    is_motion: bool = False
+    value: float = np.nan
+    raised: float = np.nan
 
 
 def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evidence) -> dict[str, Any]:
@@ -171,58 +185,69 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     if REST in evidence.looks:
         evidence = evidence.replaced(evidence.looks[REST])
         evidence = replace(evidence, error=_measured_error(only, evidence))
-    columns, motions = columns_of(evidence), _motions(evidence)
+    columns = columns_of(evidence)
     row = _row(requirement, unit, limit, columns) | _members(columns_of, limit, evidence) | {"further_runs": further_runs}
     if "verdict" in columns or np.isnan(row["value"]):
         return row
-    others, error = _tried(evidence) | motions, _tried_error(evidence)
-    tried = {name: columns_of(other) for name, other in (others | _larger_and_smaller(evidence)).items()}
-    # what has the error already is not raised by it
-    raised = {name: other.scaled(1.0 + error) for name, other in others.items() if not name.endswith(_OF_ERROR)}
-    combined = {f"{name} and {_percent(error)} more": columns_of(other) for name, other in raised.items()}
-    margins = {name: margin for name, each in tried.items() if not np.isnan(margin := _margin(each, limit))}
-    row["scatter"] = scatter = _scatter(row, tried)
-    deviation = DEVIATIONS * np.nan_to_num(scatter)
-    lowest, highest = row["value"] - deviation, row["value"] + deviation
+    # an error that was not measured may be as large as what fails clearly
+    error = float(np.nan_to_num(evidence.error, nan=CLEARLY - 1.0))
+    more, less = (f"{100.0 * error:.2g}% {change}" for change in ("more", "less"))
+    scaled = {more: 1.0 + error, less: 1.0 / (1.0 + error)} if error else {}
+    trials = _trials(evidence)
+    with_error = [Trial(f"with {name}", evidence.scaled(scale), has_error=True) for name, scale in scaled.items()]
+    table = [
+        replace(
+            trial,
+            value=_number(columns_of(trial.evidence)),
+            raised=np.nan if trial.has_error else _number(columns_of(trial.evidence.scaled(1.0 + error))),
+        )
+        for trial in (*trials, *with_error)
+    ]
+
+    repeated = [trial.value for trial in table if trial.repeats]
+    if repeated or not np.isnan(row["scatter"]):
+        deviation = np.nanstd([row["value"], *filter(np.isfinite, repeated)])
+        row["scatter"] = float(np.linalg.norm(np.nan_to_num([row["scatter"], deviation])))
+    reach_of_chance = DEVIATIONS * np.nan_to_num(row["scatter"])
+    lowest, highest = row["value"] - reach_of_chance, row["value"] + reach_of_chance
     if requirement == "above_yield" and is_lined(evidence.response) and row["value"] > 0.0:
         # wherever its borders lie, a speed above yield is one
         lowest = max(lowest, 1e-9)
-    if scatter > 0.0:
-        margins |= {"by chance": limit - (highest if row["verdict"] == MEETS else lowest)}
-    values = [value for each in (*tried.values(), *combined.values()) if np.isfinite(value := each.get("value", np.nan))]
+    if row["scatter"] > 0.0:
+        table.append(Trial("by chance", evidence, value=highest if row["verdict"] == MEETS else lowest))
+    finite = [value for trial in table for value in (trial.value, trial.raised) if np.isfinite(value)]
     most = evidence.operating.last - evidence.operating.first if requirement == "above_yield" else np.inf
-    row |= {"value_lowest": max(min([lowest, *values]), 0.0), "value_highest": min(max([highest, *values]), most)}
-    row["margin_worst_motion"] = min((min(margins[name], row["margin"]) for name in motions if name in margins), default=np.nan)
-    beyond, more = _may_come_nearer(only, evidence, error)
+    row |= {"value_lowest": max(min([lowest, *finite]), 0.0), "value_highest": min(max([highest, *finite]), most)}
+    in_motions = [max(trial.value, row["value"]) for trial in table if trial.is_motion and not np.isnan(trial.value)]
+    row["margin_worst_motion"] = limit - max(in_motions, default=np.nan)
+
+    beyond, at_least = _may_come_nearer(only, evidence, error)
     # of what fails clearly nothing more was run
-    coarse = row["verdict"] == FAILS and REST not in evidence.looks and evidence.gap > STEP
-    notes = [row["note"], AT_LEAST if more or coarse else ""]
+    at_least |= row["verdict"] == FAILS and REST not in evidence.looks and evidence.gap > STEP
+    notes = [row["note"], AT_LEAST if at_least else ""]
     if row["verdict"] == FAILS:
         # another motion that keeps the limit takes nothing from one that does not
-        kept = [name for name, margin in margins.items() if margin >= 0.0 and name not in motions]
-        doubts = [f"meets {' and '.join(kept)}"] if kept else []
+        kept = [trial.name for trial in table if trial.value <= limit and not trial.is_motion]
+        doubts = [f"meets {' and '.join(kept)}" if kept else ""]
         notes += [_how_much(only, evidence), *beyond_model(evidence)]
     else:
-        growing = next(filter(None, (_growing(only, name, other) for name, other in ({"": evidence} | others).items())), "")
-        margins |= {
-            name: _margin(each, limit) for name, each in combined.items() if margins.get(name.split(" and ")[0], 0.0) >= 0.0
-        }
-        doubts = [*_failed(margins, unit), *filter(None, [evidence.too_coarse, growing, BETWEEN if beyond else ""])]
+        failing = {trial.name: trial.value for trial in table if trial.value > limit}
+        also = [trial for trial in table if trial.raised > limit and trial.name not in failing]
+        failing |= {f"{trial.name} and {more}": trial.raised for trial in also}
+        suffix = "" if unit == "1" else f" {unit}"
+        doubts = [
+            f"fails {name}" + (f" by {value - limit:.3g}{suffix}" if np.isfinite(value) else "")
+            for name, value in failing.items()
+        ]
+        growing = filter(None, (_growing(only, trial) for trial in (Trial("", evidence), *trials)))
+        doubts += [evidence.too_coarse, next(growing, ""), BETWEEN if beyond else ""]
         doubts += _left_out(only, evidence, row["note"])
-    row["note"] = "; ".join(dict.fromkeys([*doubts, *filter(None, notes)]))
-    if doubts:
+    row["note"] = "; ".join(dict.fromkeys(filter(None, [*doubts, *notes])))
+    if any(doubts):
         row["verdict"] = UNKNOWN
     elif row["verdict"] == MEETS and not evidence.touches:
         row["note"] = NO_CONTACT
     return row
-
-
-def _scatter(row: Mapping[str, Any], tried: Mapping[str, Columns]) -> float:
-    """Standard deviation of a row's value by its own scatter and by the runs that repeat it; NaN where nothing says it."""
-    values = [tried[f"with {name}"].get("value", np.nan) for name in REPEATED if f"with {name}" in tried]
-    if not values and np.isnan(row["scatter"]):
-        return np.nan
-    return float(np.linalg.norm(np.nan_to_num([row["scatter"], np.nanstd([row["value"], *values])])))
 
 
 def _may_come_nearer(only: Requirements, evidence: Evidence, error: float) -> tuple[bool, bool]:
@@ -244,27 +269,16 @@ def _how_much(only: Requirements, evidence: Evidence) -> str:
     return f"over {operating.length(ranges):.3g} of {operating.last - operating.first:.4g} rad/s"
 
 
-def _failed(margins: Mapping[str, float], unit: str) -> list[str]:
-    """Tries that fail, and by how much."""
-    suffix = "" if unit == "1" else f" {unit}"
-    return [
-        f"fails {name}" + (f" by {-margin:.3g}{suffix}" if np.isfinite(margin) else "")
-        for name, margin in margins.items()
-        if margin < 0.0
-    ]
-
-
-def _growing(only: Requirements, name: str, evidence: Evidence) -> str:
-    """Where a motion, tried by this name, still grows as its run ends and may come to the one limit; empty where none does."""
-    near = nearness(only, evidence)
-    # any wear is a lower bound then; a speed above yield counts in full already
-    near_enough = (near >= GROWS) & (near < 1.0) if only.above_yield is not None else near >= GROWS
-    runs = evidence.response
+def _growing(only: Requirements, trial: Trial) -> str:
+    """Where the motion of a trial still grows as its run ends and may come to the one limit; empty where none does."""
+    near, runs = nearness(only, trial.evidence), trial.evidence.response
     if "motion_at_end" not in runs:
         return ""
-    grows = (near_enough | (only.used_lining is not None)) & (runs["motion_at_end"].values == MotionAtEnd.GROWING)
-    speeds = runs["speed"].values[grows & evidence.operates]
-    return f"the motion still grows as the run ends, at {speeds[0]:.5g} rad/s{name and f', {name}'}" if len(speeds) else ""
+    # any wear is a lower bound then; a speed above yield counts in full already
+    counts = (near >= GROWS) & ((near < 1.0) | (only.above_yield is None)) | (only.used_lining is not None)
+    grows = counts & (runs["motion_at_end"].values == MotionAtEnd.GROWING) & trial.evidence.operates
+    name = trial.name and f", {trial.name}"
+    return f"the motion still grows as the run ends, at {runs['speed'].values[grows][0]:.5g} rad/s{name}" if grows.any() else ""
 
 
 def _left_out(only: Requirements, evidence: Evidence, note: str) -> list[str]:
@@ -280,28 +294,27 @@ def _left_out(only: Requirements, evidence: Evidence, note: str) -> list[str]:
     return reasons + [text for text in doubts if text and evidence.touches] + beyond_model(evidence)
 
 
-def _tried(evidence: Evidence) -> dict[str, Evidence]:
-    """Runs with another damping, rise, friction, step or mesh, and as they drift on; speeds above yield before they settle."""
-    tried = {
-        f"with {name}": evidence.replaced(overlaid(evidence.response, evidence.looks[name]))
+def _trials(evidence: Evidence) -> list[Trial]:
+    """Runs with another damping, rise, friction, step or mesh, as they drift on, before they settle, and in other motions.
+
+    The motion from rest stands in for another where that does not reach over the operating range.
+    """
+    runs, looks = evidence.response, evidence.looks
+    trials = [
+        Trial(f"with {name}", evidence.replaced(overlaid(runs, looks[name])), name in _OF_ERROR, name in REPEATED)
         for name in (*LARGE_CHANGES, *REPEATED)
-        if name in evidence.looks
-    }
-    runs = evidence.response
+        if name in looks
+    ]
     if "stress_drift" in runs and (runs["stress_drift"] > 0.0).any():
-        tried["as it drifts on"] = evidence.scaled(1.0 + runs["stress_drift"].clip(min=0.0).fillna(0.0))
+        trials.append(Trial("as it drifts on", evidence.scaled(1.0 + runs["stress_drift"].clip(min=0.0).fillna(0.0))))
     if "max_von_mises_of_run" in runs:
         share = runs["share_of_revolutions_above_yield"].where(~(runs["max_von_mises_of_run"] > runs["yield_stress"]), 1.0)
-        tried["before it settles"] = evidence.replaced(runs.assign(share_of_revolutions_above_yield=share))
-    return tried
-
-
-def _larger_and_smaller(evidence: Evidence) -> dict[str, Evidence]:
-    """Stress and wear larger and smaller by the error of mesh and step."""
-    if not (error := _tried_error(evidence)):
-        return {}
-    percent, factor = _percent(error), 1.0 + error
-    return {f"with {percent} more": evidence.scaled(factor), f"with {percent} less": evidence.scaled(1.0 / factor)}
+        ever = runs.assign(share_of_revolutions_above_yield=share)
+        trials.append(Trial("before it settles", evidence.replaced(ever)))
+    motions = {name: looks[name] for name in (UP, DOWN) if name in looks}
+    if evidence.motions is not None and (worst := worst_of(swept(evidence.motions))).sizes["speed"]:
+        motions["in the worst motion"] = extended(runs, worst)
+    return trials + [Trial(name, evidence.replaced(motion), is_motion=True) for name, motion in motions.items()]
 
 
 def _measured_error(only: Requirements, evidence: Evidence) -> float:
@@ -324,35 +337,15 @@ def _measured_error(only: Requirements, evidence: Evidence) -> float:
     return float(np.linalg.norm(changes))
 
 
-def _tried_error(evidence: Evidence) -> float:
-    """Relative error of stress and wear that is tried: one that was not measured may be as large as what fails clearly."""
-    return float(np.nan_to_num(evidence.error, nan=CLEARLY - 1.0))
-
-
-def _percent(share: float) -> str:
-    return f"{100.0 * share:.2g}%"
-
-
-def _motions(evidence: Evidence) -> dict[str, Evidence]:
-    """Motions other than that from rest, which stands in for them where they do not reach over the operating range."""
-    motions = {name: evidence.replaced(evidence.looks[name]) for name in _OTHER_MOTIONS if name in evidence.looks}
-    if evidence.motions is not None and (worst := worst_of(swept(evidence.motions))).sizes["speed"]:
-        motions["in the worst motion"] = evidence.replaced(extended(evidence.response, worst))
-    return motions
-
-
 def _members(columns_of: Callable[[Evidence], Columns], limit: float, evidence: Evidence) -> Columns:
     """Members under tolerances, and the share of them that keeps the limit."""
     if evidence.members is None:
         return {}
-    margins = []
-    for name in evidence.members["member"].values:
-        member = evidence.members.sel(member=name)
-        member = member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN))
-        if member.sizes["speed"]:
-            margins.append(_margin(columns_of(evidence.replaced(member)), limit))
-    known = np.array([margin for margin in margins if not np.isnan(margin)])
-    return {"members": float(known.size), "share_of_members": float(np.mean(known >= 0.0))} if known.size else {}
+    runs = (evidence.members.sel(member=name) for name in evidence.members["member"].values)
+    ran = (member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN)) for member in runs)
+    values = np.array([_number(columns_of(evidence.replaced(member))) for member in ran if member.sizes["speed"]])
+    known = values[~np.isnan(values)]
+    return {"members": float(known.size), "share_of_members": float(np.mean(known <= limit))} if known.size else {}
 
 
 def _worst_at(value: float, speed: float, note: str = "") -> Columns:
@@ -374,7 +367,7 @@ def _above_yield(evidence: Evidence) -> Columns:
     exceedance = exceedance_of(response)
     inside = [part for part in exceedance.ranges(MOST_REVOLUTIONS) if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
-    has_rotation = "static_stress" in response and bool(response["static_stress"])
+    has_rotation = bool(response.get("static_stress", 0.0))
     operates = (exceedance.speeds >= operating.first) & (exceedance.speeds <= operating.last)
     share = float(np.max(exceedance.shares, where=operates, initial=0.0))
     some = f"above yield in up to {share:.2g} of the revolutions" if above_yield(share) == SOME else ""
@@ -419,9 +412,7 @@ def _used_lining(evidence: Evidence) -> Columns:
     if reason := _not_known(evidence, "used_thickness", "wear"):
         return {"note": reason}
     # what is worn through has used all, and would use more
-    through = (
-        response["worn_through_share"].values > 0.0 if "worn_through_share" in response else np.zeros_like(evidence.diverged)
-    )
+    through = (response.get("worn_through_share", 0.0 * response["status"]) > 0.0).values
     used = 100.0 * np.nan_to_num(response["used_thickness"].values) / evidence.thickness
     value, speed = evidence.worst(np.where(through | evidence.diverged, np.inf, used))
     if np.isinf(value):

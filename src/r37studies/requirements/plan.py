@@ -152,8 +152,9 @@ class Judged:
     def clearance(self) -> dict[str, float]:
         """Clearance (m) of each scene where it is the same at every speed."""
         casings = {name: chosen.scene.casing for name, chosen in self.sweep.settings.scenes.items()}
-        constant = {name: casing for name, casing in casings.items() if not casing.changes_with_speed}
-        return {name: casing.clearance + least_change(casing) for name, casing in constant.items()}
+        return {
+            name: casing.clearance + least_change(casing) for name, casing in casings.items() if not casing.changes_with_speed
+        }
 
     @property
     def thickness(self) -> dict[str, float]:

@@ -71,11 +71,10 @@ def verdict_table(
     and step, NaN where it is not known; `point_contact`: blades whose contact acts on points.
     """
     rows = []
-    damage = _miner_sums(datasets.get("run_ups"))
     for blade, scene in pairs:
         more: dict[str, Any] = {name: _part(datasets.get(name), blade, scene) for name in ("members", "motions")}
         more |= {name: known.get(blade if name == "mass" else scene, np.nan) for name, known in numbers.items()}
-        more["miner_sum"] = damage.get((blade, scene), np.nan)
+        more["miner_sum"] = _miner_sum(datasets.get("run_ups"), blade, scene)
         response, campbell = response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade)
         more |= {"error": errors.get((blade, scene), np.nan), "point_contact": blade in point_contact}
         evidence = Evidence(response, campbell=campbell, operating=operating, looks=looks.get((blade, scene), {}), **more)
@@ -87,13 +86,12 @@ def verdict_table(
     return pd.DataFrame(rows, columns=["blade", "scene", *COLUMNS])
 
 
-def _miner_sums(run_ups: xr.Dataset | None) -> dict[tuple[str, str], float]:
-    """Miner's sum of the worst run-up of each blade and scene that has one; NaN where one of its run-ups has none."""
+def _miner_sum(run_ups: xr.Dataset | None, blade: str, scene: str) -> float:
+    """Miner's sum of the worst run-up of a blade and scene; NaN where there is none, or one of its run-ups has none."""
     if run_ups is None or "miner_sum" not in run_ups:
-        return {}
-    runs = run_ups[["blade", "scene", "miner_sum"]].to_dataframe()
-    worst = runs.groupby(["blade", "scene"])["miner_sum"].agg(lambda sums: sums.max(skipna=False))
-    return {(str(blade), str(scene)): float(value) for (blade, scene), value in worst.items()}
+        return np.nan
+    own = (run_ups["blade"] == blade) & (run_ups["scene"] == scene)
+    return float(run_ups["miner_sum"].where(own, drop=True).max(skipna=False)) if own.any() else np.nan
 
 
 def _part(dataset: xr.Dataset | None, blade: str, scene: str) -> xr.Dataset | None:
@@ -113,18 +111,16 @@ def operating_table(
     """
     rows: list[tuple[object, ...]] = []
     for blade in dict.fromkeys(blade for blade, _ in pairs):
-        crossings = datasets["campbell"]["crossing_speed"].sel(blade=blade)
-        for mode in crossings["mode"].values:
-            for order, speed in crossings.sel(mode=mode).to_series().dropna().items():
-                if operating.first <= speed <= operating.last:
-                    distance = 100.0 * distance_from_operation(float(speed), operating)
-                    rows.append((blade, "", CROSSING, f"{mode}/{order}", speed, speed, 0.0, 0.0, distance))
+        crossings = datasets["campbell"]["crossing_speed"].sel(blade=blade, drop=True).to_series()
+        for (mode, order), speed in crossings[crossings.between(operating.first, operating.last)].items():
+            distance = 100.0 * distance_from_operation(speed, operating)
+            rows.append((blade, "", CROSSING, f"{mode}/{order}", speed, speed, 0.0, 0.0, distance))
     for blade, scene in pairs:
         peaks = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
         for row in peaks.itertuples():
             # where some revolutions are above yield, or else at the peak alone
-            ends = (getattr(row, "some_revolutions_from_rad_s", np.nan), getattr(row, "some_revolutions_to_rad_s", np.nan))
-            begin, end = 2 * (float(row.peak_speed_rad_s),) if pd.isna(ends[0]) else ends
+            begin = getattr(row, "some_revolutions_from_rad_s", np.nan)
+            begin, end = 2 * (row.peak_speed_rad_s,) if pd.isna(begin) else (begin, row.some_revolutions_to_rad_s)
             if operating.overlap(begin, end) >= 0.0:
                 title = interaction_title(row.mode, row.engine_order)
                 rows.append((blade, scene, INTERACTION, title, *_inside(begin, end, operating), np.nan))
@@ -148,8 +144,8 @@ def overall(verdict: pd.DataFrame) -> pd.DataFrame:
     """One row for each blade and scene: `verdict`, the worst of its requirements, and `reason`, what fails or is not sure."""
     rows = []
     for (blade, scene), part in verdict.groupby(["blade", "scene"], sort=False):
-        worst = next(kind for kind in (FAILS, UNKNOWN, MEETS, NOT_APPLICABLE) if (part["verdict"] == kind).any())
-        reasons = [reason(row) for _, row in part[part["verdict"] == worst].iterrows()] if worst in (FAILS, UNKNOWN) else []
+        worst = min(part["verdict"], key=(FAILS, UNKNOWN, MEETS, NOT_APPLICABLE).index)
+        reasons = [reason(row) for _, row in part.iterrows() if row["verdict"] == worst in (FAILS, UNKNOWN)]
         rows.append((blade, scene, worst, "; ".join(reasons)))
     return pd.DataFrame(rows, columns=["blade", "scene", "verdict", "reason"])
 
@@ -184,25 +180,19 @@ def _unit(row: pd.Series) -> str:
     return "" if row["unit"] == "1" else f" {row['unit']}"
 
 
+_SHOWN = ("blade", "scene", "requirement", "verdict", "limit", "unit", "note", "value", "margin", "from_rad_s", "to_rad_s")
+"""Columns of verdict.csv that the explorer shows; what is not known or not finite is null."""
+
+
 def contents(verdict: pd.DataFrame) -> dict[str, object]:
     """`pairs`: blade, scene, verdict and reason of each, those that meet all first; `requirements`: rows of verdict.csv."""
-    shown = verdict.astype(object).where(verdict.notna(), None)
     rows = [
-        {
-            **{key: row[key] for key in ("blade", "scene", "requirement", "verdict", "limit", "unit", "note")},
-            **_numbers(row, full),
-        }
-        for (_, row), (_, full) in zip(shown.iterrows(), verdict.iterrows(), strict=True)
+        {name: None if isinstance(row[name], float) and not np.isfinite(row[name]) else row[name] for name in _SHOWN}
+        | {"certainty": certainty(row)}
+        for _, row in verdict.iterrows()
     ]
     pairs = sorted(overall(verdict).to_dict("records"), key=lambda pair: VERDICTS.index(pair["verdict"]))
     return {"pairs": pairs, "requirements": rows}
-
-
-def _numbers(row: pd.Series, full: pd.Series) -> dict[str, object]:
-    """Value, margin and speeds as JSON can have them, and how certain they are."""
-    numbers = {key: row[key] for key in ("value", "margin", "from_rad_s", "to_rad_s")}
-    finite = {key: value if value is not None and abs(value) < float("inf") else None for key, value in numbers.items()}
-    return {**finite, "certainty": certainty(full)}
 
 
 _MOST_LINES = 8
