@@ -57,7 +57,7 @@ class SurfaceRule(Section):
         return si_form(Where, self, limits=self._limits())
 
 
-SetOrRule: Any = or_section(FileName, SurfaceRule, Annotated[list[FileName], Field(min_length=1)])
+SetOrRule: Any = or_section(FileName, SurfaceRule, rows=Annotated[list[FileName], Field(min_length=1)])
 
 
 _LEAST_METRES, _MOST_METRES = 1e-9, 1e3

@@ -1,6 +1,7 @@
 """Damping ratios over the frequency of a mode, by mode and by speed: closed forms, both engines, and what is refused."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 import pytest
@@ -8,11 +9,15 @@ from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import RING, SCENES, model_of_node, oscillator, random_model, with_static_modes
 from integration_runs import ENGINES, assert_close, assert_same_record, assert_same_state, both_engines, free_motion, times
 from integration_runs import whole_run as run_of
+from pydantic import TypeAdapter
 
+from r37core.base.declared import Key
 from r37core.base.plain import from_plain, to_plain
 from r37core.config import ConfigError, Document, checked_scene
 from r37core.config.changed_numbers import scene_numbers
-from r37core.config.scenes import SceneEntry
+from r37core.config.declaring import section_of, si
+from r37core.config.scenes import DampingSection, SceneEntry
+from r37core.config.section import or_section
 from r37core.contact.scene import DampingRow, DampingTable, Rotor
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS, exact_modal, recursion
@@ -177,14 +182,31 @@ def test_the_table_of_a_file_reaches_the_jobs_and_is_no_number_that_varies():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"frequencies_hz": [8000, 1000]}, r"damping_ratio\.frequencies_hz: found \[8000.0, 1000.0\]; allowed: ascending freq"),
-        ({"ratios": [0.1] * 3}, r"damping_ratio\.ratios: found 3 numbers for 2 frequencies; allowed: one for each frequency"),
+        ({"frequencies_hz": [8000, 1000]}, r"damping_ratio\.frequencies_hz: found \[8000.0, 1000.0\]; allowed: ascending"),
+        ({"ratios": [0.1] * 3}, r"damping_ratio\.ratios: found 3 numbers for 2 frequencies_hz; allowed: one for each"),
     ],
 )
 def test_a_table_that_cannot_be_is_refused(change, message):
     with pytest.raises(ConfigError, match=message) as refusal:
         checked_scene(CASING | {"damping_ratio": TABLE | change})
     assert "\n" not in str(refusal.value)
+
+
+@dataclass(frozen=True)
+class Proportional:
+    mass: Annotated[float, Key("of the mass", "_rad_s", ge=0)]
+    stiffness: Annotated[float, Key("of the stiffness", "_s", ge=0)]
+
+    def damping(self, frequencies, speed):
+        return 0.5 * (self.mass / frequencies + self.stiffness * frequencies)
+
+
+def test_a_second_law_is_a_dataclass_and_its_section():
+    """One in contact/scene.py, the other in config/scenes.py."""
+    laws = TypeAdapter(or_section(float, DampingSection, section_of(Proportional, "Damping in proportion.")))
+    law = si(laws.validate_python({"mass_rad_s": 4.0, "stiffness_s": 0.5}))
+    assert with_damping(FREE, law).damping(np.array([1.0, 2.0]), 100.0).tolist() == [2.25, 1.5]
+    assert si(laws.validate_python(TABLE)) == DampingTable((1000.0, 8000.0), (0.0005, 0.005))
 
 
 ROW = {"ratio": 0.001}
@@ -209,7 +231,7 @@ def test_rows_of_a_file_have_a_range():
         ([ROW, ROW | {"speed_rad_s": 5}], r"damping_ratio\.1: found mode 0 in several rows"),
         ([ROW | {"speed_rad_s": 5}, ROW | {"speed_rad_s": 5}], r"damping_ratio\.1: found mode 0 in several rows"),
         ([ROW | {"speed_rad_s": -5}], r"damping_ratio\.0\.speed_rad_s: found -5; allowed: number, at least 0.001"),
-        ([ROW | {"speed_rad_s": 5, "speed_rpm": 5}], r"damping_ratio\.0\.speed_rpm: found both"),
+        ([ROW | {"speed_rad_s": 5, "speed_rpm": 5}], r"damping_ratio\.0\.speed_rpm: found speed_rad_s and speed_rpm"),
         ([ROW, ROW | {"mode": "1B"}], r"damping_ratio\.1\.mode: found '1B'; allowed: integer"),
         ([ROW | {"mode": 1}], r"damping_ratio: found no row of mode 0; allowed: also one, which all other modes have"),
         ([{"ratio": 1.0}], r"damping_ratio\.0\.ratio: found 1.0; allowed: number, at least 0, less than 1"),

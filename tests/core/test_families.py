@@ -105,7 +105,7 @@ def test_a_table_has_one_design_a_row(with_blades):
         (SWEEP.replace("sweep_percent", "sweep_lean.1.sweep_cm"), r"Sweep\.sweep_lean: design Sweep_-50: found \{'1'"),
         (SWEEP + "More: { base: Sweep }\n", r"More\.base: found 'Sweep'; allowed: another blade"),
         (SWEEP + "Sweep_50: { base: Ref }\n", r"Sweep: found the design 'Sweep_50'; allowed: designs that are not"),
-        (SWEEP + "  designs: config/designs.csv\n", r"Sweep: found both vary and designs; allowed: one of them"),
+        (SWEEP + "  designs: config/designs.csv\n", r"Sweep\.designs: found vary and designs; allowed: one of them"),
         ("Mine: { base: Ref, designs: config/none.csv }\n", r"yaml:\d+: Mine\.designs: there is no file config/none\.csv"),
     ],
 )  # fmt: skip

@@ -159,7 +159,7 @@ def test_both_give_the_same_bits(engine, scene, growing):
 
 
 def test_a_scene_has_one_height():
-    found = "amplitude_clearances and amplitude_m; allowed: one of them; null .None in Python. leaves out that of the base$"
+    found = "amplitude_clearances and amplitude_m; allowed: one of them; null .None in Python. leaves out an inherited one$"
     with pytest.raises(ConfigError, match=found):
         checked_scene({"casing": {**CLEARANCE, "amplitude_clearances": 2.0, "amplitude_m": 7.12e-4}})
     with pytest.raises(ConfigError, match=found):

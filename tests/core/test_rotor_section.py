@@ -12,6 +12,7 @@ from r37core.base.plain import from_plain, to_plain
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, checked_scene, command_line_document
 from r37core.config.changed_numbers import entry_with, scene_numbers
+from r37core.config.declaring import si
 from r37core.config.rotor_section import RotorSection
 from r37core.contact.scene import Rotor
 from r37core.product.extensions import read_settings
@@ -120,7 +121,7 @@ def test_what_no_rotor_has_is_refused_in_one_line(keys, message):
 
 def test_a_rotor_has_no_signal_and_needs_a_lining():
     entry = lined(blades=4)
-    with pytest.raises(ConfigError, match="results: found signal with a rotor"):
+    with pytest.raises(ConfigError, match="results: found signal; allowed: only in a scene without rotor"):
         checked_scene(entry | {"results": ["signal"]})
     del entry["lining"]
     with pytest.raises(ConfigError, match="run a single blade for each"):
@@ -137,4 +138,4 @@ def test_what_is_at_a_bound_is_a_rotor():
     assert min(rotor.frequency_factors) == pytest.approx(0.05) and max(rotor.frequency_factors) == 11.0
     assert 0.0999 < max(map(abs, rotor.longer)) <= 0.1
     section = RotorSection(blades=2, longer_spread_m={"values": [0.1]}, mistuning_percent={2: 1.0})
-    assert section.rotor().longer == (0.1, 0.1) and section.rotor().frequency_factors == (1.0, 1.01)
+    assert si(section).longer == (0.1, 0.1) and si(section).frequency_factors == (1.0, 1.01)

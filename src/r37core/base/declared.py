@@ -19,9 +19,9 @@ class Key:
 
     `unit`: end of the key, one of units.SUFFIXES; `name`: the key without its unit, where it is not called like the field;
     `ge`, `gt`, `le`, `lt`: bounds in the key's unit, of a list's entries where there is one; `one_of`: texts that are allowed;
-    `words`: word -> value of a field that is true or false; `none`: word for a field that is None. `optional`: whether the key
-    may be left out, also of a field without default, which is then made otherwise. Several keys of one field are several
-    ways to give it.
+    `entries`: least number of a list's entries; `words`: word -> value of a field that is true or false; `none`: word for a
+    field that is None. `optional`: whether the key may be left out, also of a field without default, which is then made
+    otherwise. Several keys of one field are several ways to give it.
     """
 
     description: str
@@ -31,6 +31,7 @@ class Key:
     gt: float | None = None
     le: float | None = None
     lt: float | None = None
+    entries: int | None = None
     words: Mapping[str, bool] | None = None
     one_of: Iterable[str] = ()
     none: str = ""

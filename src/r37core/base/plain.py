@@ -3,6 +3,7 @@
 Light: the simulation jobs import it.
 """
 
+import json
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import fields, is_dataclass
@@ -50,6 +51,16 @@ def from_plain(cls: type[T], data: Any) -> T:
     elif kind is Any or ((data is None) == (kind is NoneType) and not (several or isinstance(data, Mapping))):
         return data
     raise PlainError(f"{getattr(kind, '__name__', kind)}: found {data!r}")
+
+
+def to_json(value: Any) -> str:
+    """`value` as JSON text, as `to_plain` has it. Raises PlainError."""
+    return json.dumps(to_plain(value))
+
+
+def from_json(cls: type[T], text: str) -> T:
+    """The `cls` of which `to_json` made `text`. Raises PlainError as `from_plain`."""
+    return from_plain(cls, json.loads(text))
 
 
 @cache

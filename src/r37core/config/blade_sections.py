@@ -1,7 +1,7 @@
 """Sections of all kinds of blades: a material, and regions of the stress."""
 
 from collections.abc import Iterable, Mapping
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -10,7 +10,7 @@ from r37core.fem.material import Material
 from r37core.rom.region_choice import RegionChoice
 from r37core.stress.gauge import Gauge
 
-from .declaring import declared_by, si_form
+from .declaring import declared_by, section_of, si
 from .section import Section, refused
 
 Contact = Literal["points", "patches"]
@@ -24,15 +24,8 @@ Degrees = Annotated[float, Field(ge=0, lt=360)]
 """An angle round the casing."""
 
 
-@declared_by(Gauge)
-class GaugeEntry(Section):
-    """A strain gauge on the blade's surface."""
-
-
-@declared_by(Material, optional=True)
-class MaterialSection(Section):
-    """Isotropic material; the base gives what is left out."""
-
+GaugeEntry: Any = section_of(Gauge, "A strain gauge on the blade's surface.")
+MaterialSection: Any = section_of(Material, "Isotropic material; the base gives what is left out.", optional=True)
 
 MATERIAL = "material."
 MATERIAL_KEYS = tuple(MATERIAL + key for key in MaterialSection.model_fields)
@@ -61,4 +54,4 @@ def refuse_taken_names(regions: Iterable[str]) -> None:
 
 def chosen_regions(sections: Mapping[str, RegionSection | None]) -> dict[str, RegionChoice]:
     """Regions by name, without those that null leaves out."""
-    return {name: si_form(RegionChoice, section) for name, section in sections.items() if section is not None}
+    return {name: si(section) for name, section in sections.items() if section is not None}

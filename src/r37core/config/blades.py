@@ -35,7 +35,7 @@ from .blade_sections import (
     chosen_regions,
     refuse_taken_names,
 )
-from .declaring import si_fields, si_form
+from .declaring import si, si_fields
 from .document import ConfigError, Document, chain_of_bases
 from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
 from .shape_keys import END_KEYS, SECTION_KEYS, SHARES, SHIFTS, ShapeKeys, changed_keys, section_laws, shape_by_laws
@@ -57,6 +57,7 @@ class BladeEntry(ShapeKeys, GivenShape):
 
     # as of BladeKind, and numbers in rows of a table
     varied: ClassVar[tuple[str, ...]] = ("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *END_KEYS, *MATERIAL_KEYS)
+    at_most_one_of = (("profiles", "base"), *ShapeKeys.at_most_one_of)
 
     contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}; by default that of the base, without one patches")
     kinematics: Kinematics | LeftOut = left_out(f"{KINEMATICS_IN_WORDS}; by default that of the base, without one quadratic")
@@ -68,10 +69,7 @@ class BladeEntry(ShapeKeys, GivenShape):
     designs: DesignTable = designs_field("blade")
 
     def _check(self) -> None:
-        super()._check()
         refuse_taken_names(self.stress_regions or ())
-        if self.profiles is not None and self.base is not None:
-            raise refused((), "both profiles and base", "one of them")
         if self.profiles is None and self.base is None:
             raise refused((), "neither profiles nor base", "one of them, or sections, or a mesh or matrices of another program")
 
@@ -236,7 +234,7 @@ def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Docume
     missing = [key for key in REQUIRED_OF_MATERIAL if key not in material]
     if missing:
         raise document.error((chain[-1], "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
-    made = si_form(fem_material.Material, MaterialSection(**material))
+    made = si(MaterialSection(**material))
     try:
         made.check_strengths()
     except ValueError as error:

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping
-from itertools import pairwise
 from typing import Annotated, Any
 
 from pydantic import Field, model_validator
@@ -11,8 +10,8 @@ from r37core.contact.casing import Casing
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 
-from .declaring import DECLARED, declared_by, si_fields, si_form
-from .section import LeftOut, Section, Without, left_out, refused
+from .declaring import DECLARED, declared_by, si, si_fields
+from .section import LeftOut, Section, Without, check_table, left_out, refused
 
 _HEIGHTS = ("amplitude_clearances", "amplitude_m")
 """Keys of the height of the lobes, of which a scene has one."""
@@ -20,6 +19,8 @@ _HEIGHTS = ("amplitude_clearances", "amplitude_m")
 
 class GrowthSection(Section):
     """Growth of the casing, linear between speeds."""
+
+    one_of = (("speeds_rad_s", "speeds_rpm"),)
 
     speeds_rad_s: list[Annotated[float, Field(ge=0, le=1e6)]] | LeftOut = Field(
         default=None, min_length=2, description="Ascending speeds, from 0 to at least structure.maximum_speed_rad_s"
@@ -32,10 +33,7 @@ class GrowthSection(Section):
     )
 
     def _check(self) -> None:
-        keys = [key for key in ("speeds_rad_s", "speeds_rpm") if getattr(self, key) is not None]
-        if len(keys) != 1:
-            raise refused((), " and ".join(keys) or "no speeds", "speeds_rad_s or speeds_rpm")
-        _check_table(keys[0], getattr(self, keys[0]), "speed", "growth_m", self.growth_m, "cold_m")
+        check_table(self, "speeds_rpm" if self.speeds_rad_s is None else "speeds_rad_s", "growth_m", "cold_m")
 
 
 class ChangeSection(Section):
@@ -49,16 +47,7 @@ class ChangeSection(Section):
     )
 
     def _check(self) -> None:
-        _check_table("revolutions", self.revolutions, "revolution", "change_m", self.change_m, "clearance_m")
-
-
-def _check_table(key: str, places: list[float], place: str, name: str, values: list[float], clearance: str) -> None:
-    if places[0] != 0.0 or any(after <= before for before, after in pairwise(places)):
-        raise refused((key,), f"{places}", f"ascending {place}s, the first of them 0")
-    if len(places) != len(values):
-        raise refused((name,), f"{len(values)} numbers for {len(places)} {place}s", f"one for each {place}")
-    if values[0] != 0.0:
-        raise refused((name, 0), f"{values[0]:g} at {place} 0", f"0; the clearance there is {clearance}")
+        check_table(self, "revolutions", "change_m", "clearance_m")
 
 
 class ClearanceSection(Section):
@@ -92,16 +81,19 @@ class RingModeSection(Section):
         "Tangential over radial displacement; by default 1/nodal_diameter (bending alone), or 0"
     )
 
-    def mode(self) -> RingMode:
-        """The mode as the simulations take it."""
+    def parts(self) -> dict[str, Any]:
+        """Frequency in rad/s, and the tangential displacement of a ring that bends alone where none is given."""
         inextensional = 1.0 / self.nodal_diameter if self.nodal_diameter else 0.0
         tangential = inextensional if self.tangential_ratio is None else self.tangential_ratio
-        return si_form(RingMode, self, frequency=2.0 * math.pi * self.frequency_hz, tangential=tangential)
+        return {"frequency": 2.0 * math.pi * self.frequency_hz, "tangential": tangential}
 
 
 @declared_by(Casing, amplitude_clearances=None)
 class CasingSection(Section):
     """Shape and elasticity of the casing."""
+
+    one_of = (("clearance_m", "clearance"),)
+    at_most_one_of = (_HEIGHTS, ("ring", "ring_modes"))
 
     clearance_m: Any = DECLARED
     clearance: ClearanceSection | LeftOut = None
@@ -126,15 +118,6 @@ class CasingSection(Section):
             return {**data, _HEIGHTS[0]: Casing.amplitude}
         return data
 
-    def _check(self) -> None:
-        if (self.clearance_m is None) == (self.clearance is None):
-            value = "neither of clearance_m and clearance" if self.clearance is None else "clearance_m and clearance"
-            raise refused((), value, "one of clearance_m and clearance")
-        if self.amplitude_clearances is not None and self.amplitude_m is not None:
-            raise refused((), " and ".join(_HEIGHTS), "one of them; null (None in Python) leaves out that of the base")
-        if self.ring is not None and self.ring_modes is not None:
-            raise refused((), "ring and ring_modes", "one of them")
-
     @property
     def cold_clearance(self) -> float:
         """Clearance (m) at rest, which is that of every speed where it does not depend on speed."""
@@ -148,18 +131,17 @@ class CasingSection(Section):
     def elastic_casing(self) -> ElasticCasing:
         """The flexible casing, with the waves that simulations leave out; without modes where the casing is rigid."""
         if self.ring is None:
-            return ElasticCasing(tuple(mode.mode() for mode in self.ring_modes or ()))
-        ring = si_form(Ring, self.ring)
+            return ElasticCasing(tuple(map(si, self.ring_modes or ())))
+        ring = si(self.ring)
         return ElasticCasing(ring.modes(), ring)
 
-    def casing(self) -> Casing:
-        """The casing as the simulations take it."""
-        more: dict[str, Any] = {"ring": self.elastic_casing().modes, "ring_radius": self.ring.radius_m if self.ring else None}
+    def parts(self) -> dict[str, Any]:
+        """The modes of the ring, and the clearance as it changes with revolutions and speed."""
+        parts: dict[str, Any] = {"ring": self.elastic_casing().modes, "ring_radius": self.ring and self.ring.radius_m}
         if (change := self.clearance_over_revolutions) is not None:
-            more |= {"change_revolutions": tuple(change.revolutions), "change": tuple(change.change_m)}
-        if self.clearance is None:
-            return si_form(Casing, self, **more)
-        table = si_fields(self.clearance.casing_growth or ())
-        growth = {"growth_speeds": table.get("speeds", ()), "growth": table.get("growth", ())}
-        cold = {"clearance": self.clearance.cold_m, "centrifugal": self.clearance.centrifugal}
-        return si_form(Casing, self, **more, **cold, **growth)
+            parts |= {"change_revolutions": tuple(change.revolutions), "change": tuple(change.change_m)}
+        if (clearance := self.clearance) is not None:
+            table = si_fields(clearance.casing_growth or ())
+            parts |= {"growth_speeds": table.get("speeds", ()), "growth": table.get("growth", ())}
+            parts |= {"clearance": clearance.cold_m, "centrifugal": clearance.centrifugal}
+        return parts

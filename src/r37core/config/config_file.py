@@ -12,7 +12,7 @@ from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice
 
 from .blade_sections import Contact, Kinematics, RegionSection, refuse_taken_names
-from .declaring import DECLARED, declared_by, si_form
+from .declaring import DECLARED, declared_by, section_of, si
 from .section import AllOrNames, ByName, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 
@@ -65,9 +65,7 @@ class CampbellSection(Section):
     )
 
 
-@declared_by(InteractionChoice)
-class Interactions(Section):
-    """Peaks that count as interactions in summary.csv."""
+Interactions: Any = section_of(InteractionChoice, "Peaks that count as interactions in summary.csv.")
 
 
 @declared_by(Window)
@@ -114,53 +112,40 @@ class RefinementSection(Section):
         return self if scene.lined else self.model_copy(update=dict(self.direct))
 
 
-def _one_of_each(section: Section, names: tuple[str, str]) -> tuple[str, str]:
-    """Keys that give two speeds. Raises the error of a speed that is not there, or in two units."""
-    keys = []
-    for name in names:
-        both = (f"{name}_rad_s", f"{name}_rpm")
-        present = [key for key in both if getattr(section, key) is not None]
-        if len(present) != 1:
-            raise refused((present[1],) if present else (), " and ".join(present) or f"no {name}", " or ".join(both))
-        keys += present
-    return keys[0], keys[1]
-
-
 @declared_by(OperatingDwell)
 class OperatingDwellSection(Section):
     """A share of the operating time that is spent between two speeds."""
 
+    one_of = (("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm"))
+
     def _check(self) -> None:
-        _, last_key = _one_of_each(self, ("from", "to"))
-        dwell = si_form(OperatingDwell, self)
+        dwell = si(self)
         if dwell.stop <= dwell.start:
-            raise refused((last_key,), f"{getattr(self, last_key):g}", "a speed above the lowest one")
+            raise refused((), f"a dwell from {dwell.start:g} to {dwell.stop:g} rad/s", "a last speed above the first one")
 
 
 @declared_by(OperatingRange)
 class OperatingSection(Section):
     """The speeds from idle to redline."""
 
+    one_of = (("idle_rad_s", "idle_rpm"), ("redline_rad_s", "redline_rpm"))
+
     dwell: list[OperatingDwellSection] = Field(
         default=[], description="Speeds at which more time is spent; the rest of it is spread evenly over the range"
     )
 
     def _check(self) -> None:
-        _, last_key = _one_of_each(self, ("idle", "redline"))
-        operating = self.operating()
+        operating: OperatingRange = si(self)
+        both = f"{operating.idle:.6g} to {operating.redline:.6g} rad/s"
         if operating.redline <= operating.idle:
-            raise refused((last_key,), f"{getattr(self, last_key):g}", f"a speed above idle ({operating.idle:.6g} rad/s)")
+            raise refused((), f"an operating range from {both}", "a redline above idle")
         for number, dwell in enumerate(operating.dwell):
             if dwell.start < operating.idle or dwell.stop > operating.redline:
-                between = f"between idle and redline, {operating.idle:.6g} and {operating.redline:.6g} rad/s"
-                raise refused(("dwell", number), f"{dwell.start:.6g} to {dwell.stop:.6g} rad/s", between)
+                found = f"{dwell.start:.6g} to {dwell.stop:.6g} rad/s"
+                raise refused(("dwell", number), found, f"speeds between idle and redline, {both}")
         total = sum(dwell.share for dwell in operating.dwell)
         if total > 1.0 + 1e-9:
             raise refused(("dwell",), f"{100.0 * total:g} percent of the time", "at most 100 percent together")
-
-    def operating(self) -> OperatingRange:
-        """The range in SI units."""
-        return si_form(OperatingRange, self, dwell=tuple(si_form(OperatingDwell, dwell) for dwell in self.dwell))
 
 
 class Run(Section):

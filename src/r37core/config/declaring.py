@@ -1,7 +1,7 @@
 """Sections of the configuration from the dataclasses of the computations, and back.
 
-A dataclass declares its keys (`r37core.base.declared`). `declared_by` puts them into a section; `si_form` makes the
-dataclass of a section.
+A dataclass declares its keys (`r37core.base.declared`). `declared_by` puts them into a section, `section_of` makes the section
+of nothing else; `si` makes the dataclass of a section, with those of the sections in it.
 """
 
 import math
@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import MISSING, fields
 from functools import cache
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from pydantic import Field, create_model
 
@@ -37,9 +37,21 @@ def declared_by(
     def completed(section: type[S]) -> type[S]:
         keys = [key for key in declared_keys(kind) if key.name in section.model_fields or not only_listed]
         made: dict[str, Any] = {key.name: _field(key, optional, defaults.get(key.name, MISSING)) for key in keys}
-        return create_model(section.__name__, __base__=section, __module__=section.__module__, __doc__=section.__doc__, **made)
+        model = create_model(section.__name__, __base__=section, __module__=section.__module__, __doc__=section.__doc__, **made)
+        model.declares = kind
+        return model
 
     return completed
+
+
+def section_of(kind: type, meaning: str, **options: Any) -> Any:
+    """A section of no more than the keys that the dataclass `kind` declares; `options` as of declared_by."""
+    return declared_by(kind, **options)(create_model(f"{kind.__name__}Section", __base__=Section, __doc__=meaning))
+
+
+def si(section: Section) -> Any:
+    """The dataclass that declares a section's keys, in SI units, with those of the sections in it."""
+    return si_form(section.declares, section, **section.parts())
 
 
 def si_form(kind: type[T], section: Section, **parts: Any) -> T:
@@ -49,24 +61,34 @@ def si_form(kind: type[T], section: Section, **parts: Any) -> T:
     has the dataclass's default, or is None.
     """
     values: dict[str, Any] = {}
-    for field, (left_out, keys) in _keys_by_field(kind).items():  # type: ignore[arg-type]
-        values |= left_out
+    for field, is_none, keys in _keys_by_field(kind):  # type: ignore[arg-type]
+        if field in parts:
+            continue
+        if is_none:
+            values[field] = None
         for name, key in keys.items():
             value = getattr(section, name, None)
             if value is not None and value != (key.none or None):
-                values[field] = key.words[value] if key.words else si_value(value, key.factor)
+                values[field] = key.words[value] if key.words else _made(value, key.factor)
     return kind(**values | parts)
 
 
+def _made(value: Any, factor: float | None) -> Any:
+    """A value as a field has it, with the dataclasses of sections in their place."""
+    if isinstance(value, list):
+        return tuple(_made(entry, factor) for entry in value)
+    return si(value) if isinstance(value, Section) and value.declares else si_value(value, factor)
+
+
 @cache
-def _keys_by_field(kind: Any) -> dict[str, tuple[dict[str, None], dict[str, Key]]]:
-    """Field of a dataclass -> it as None, if it is that without a key, and its keys by name."""
-    by_field = {}
+def _keys_by_field(kind: Any) -> list[tuple[str, bool, dict[str, Key]]]:
+    """Fields of a dataclass, each with whether it is None where it is left out, and its keys by name."""
+    hints, by_field = get_type_hints(kind), []
     for field in fields(kind):
-        keys = [declared for declared in declared_keys(kind) if declared.field == field.name]
-        is_none = bool(keys) and keys[0].default is MISSING and NoneType in get_args(keys[0].kind)
-        named = {declared.name: declared.key for declared in keys} or {field.name: Key("")}
-        by_field[field.name] = ({field.name: None} if is_none else {}, named)
+        keys = {declared.name: declared.key for declared in declared_keys(kind) if declared.field == field.name}
+        has_default = field.default is not MISSING or field.default_factory is not MISSING
+        is_none = not has_default and NoneType in get_args(hints[field.name])
+        by_field.append((field.name, is_none, keys or {field.name: Key("")}))
     return by_field
 
 
@@ -107,8 +129,8 @@ def _file_type(key: Key, kind: Any) -> Any:
         return Literal[key.none] | number if key.none else number
     if get_origin(kind) is tuple:
         entries = get_args(kind)
-        length: dict[str, Any] = {} if entries[-1] is Ellipsis else {"min_length": len(entries), "max_length": len(entries)}
-        return Annotated[list[_file_type(key, entries[0])], Field(**length)]  # type: ignore[misc]
+        least, most = (key.entries, None) if entries[-1] is Ellipsis else (len(entries), len(entries))
+        return Annotated[list[_file_type(key, entries[0])], Field(min_length=least, max_length=most)]  # type: ignore[misc]
     if kind in (int, float):
         return Annotated[kind, Field(ge=key.ge, gt=key.gt, le=key.le, lt=key.lt)]
     return kind

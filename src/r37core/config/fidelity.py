@@ -71,6 +71,8 @@ class Steps(Section):
 class TimeIntegration(Section):
     """Time integration and kept results."""
 
+    one_of = (("time_step_s", "largest_time_step_s"),)
+
     time_step_s: TimeStep | LeftOut = left_out("Largest step, shortened to divide a revolution; an unstable one is refused")
     largest_time_step_s: Steps | LeftOut = left_out(
         "Largest steps by kind of scene, in place of time_step_s; an unstable one is shortened"
@@ -88,9 +90,6 @@ class TimeIntegration(Section):
     wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="Angles of the kept wear profile")
 
     def _check(self) -> None:
-        if (self.time_step_s is None) == (self.largest_time_step_s is None):
-            value = "neither of them" if self.time_step_s is None else "both"
-            raise refused(("time_step_s",), value, "time_step_s or largest_time_step_s, one of them")
         size = 32 * self.revolutions * self.samples_per_revolution
         if size > _LARGEST_SIGNAL:
             value = f"{self.revolutions} of {self.samples_per_revolution} samples, {size / 2**30:.1f} GiB"

@@ -11,6 +11,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, WrapValidator
 from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Rotor
 
+from .declaring import declared_by
 from .section import LeftOut, Section, Unique, left_out, refused
 from .spread import SpreadEntry
 
@@ -57,6 +58,7 @@ Change = Annotated[float, Field(ge=_CHANGES[0], le=_CHANGES[1])]
 Length = Annotated[float, Field(ge=_LENGTHS[0], le=_LENGTHS[1])]
 
 
+@declared_by(Rotor)
 class RotorSection(Section):
     """Blades that run on one casing and wear one lining; their roots stand still, and nothing else couples them."""
 
@@ -137,12 +139,12 @@ class RotorSection(Section):
         nominal = [spread.value(0.0, float(share)) if spread else 0.0 for share in shares]
         return [table.get(str(number), nominal[number - 1]) for number in self._present]
 
-    def rotor(self) -> Rotor:
+    def parts(self) -> dict[str, Any]:
         """The blades that are there, as the simulations take them."""
-        return Rotor(
-            numbers=tuple(self._present),
-            angles=tuple(float(np.radians(self._angles[number - 1])) for number in self._present),
-            frequency_factors=tuple(1.0 + 0.01 * change for change in self._values("mistuning_percent")),
-            longer=tuple(self._values("longer_m")),
-            shared_lining=self.lining == "shared",
-        )
+        return {
+            "numbers": tuple(self._present),
+            "angles": tuple(float(np.radians(self._angles[number - 1])) for number in self._present),
+            "frequency_factors": tuple(1.0 + 0.01 * change for change in self._values("mistuning_percent")),
+            "longer": tuple(self._values("longer_m")),
+            "shared_lining": self.lining == "shared",
+        }

@@ -1,6 +1,5 @@
 """scenes.yaml: what the blade meets."""
 
-from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, RootModel
@@ -9,16 +8,18 @@ from r37core.contact.scene import DampingRow, DampingTable, Friction, Lining, Sc
 from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
 from .casing_section import CasingSection
-from .declaring import DECLARED, declared_by, si_fields, si_form
+from .declaring import DECLARED, declared_by, section_of, si, si_fields
 from .document import ConfigRefusals, Document, completed
 from .rotor_section import RotorSection
-from .section import ByName, LeftOut, Name, Rpm, Section, Speed, left_out, or_section, refused
+from .section import ByName, LeftOut, Name, Rpm, Section, Speed, check_table, left_out, or_section, refused
 from .speed_section import refuse_both_units
-from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, is_family, vary_field
+from .varied import COMBINE, FAMILY_WAYS, Combine, DesignTable, Vary, designs_field, vary_field
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
 OF_ONE_BLADE = ("signal", "shapes", "motion_kind")
 """Results that a scene with a rotor cannot have."""
+
+_HISTORIES = ("stress_history_speeds_rad_s", "stress_history_speeds_rpm")
 
 Result = Literal[
     "spectrum", "signal", "stress", "static_stress", "fatigue", "wear", "energy", "casing", "shapes", "motion_kind"
@@ -39,45 +40,33 @@ class LiningSection(Section):
             raise refused((given[0],), " and ".join(given), allowed)
 
 
-@declared_by(Friction)
-class FrictionSection(Section):
-    """Friction at the tip."""
-
-    form: Any = DECLARED
-
+FrictionSection: Any = section_of(Friction, "Friction at the tip.")
 
 DampingNumber = Annotated[float, Field(ge=0, lt=1)]
 
 
+@declared_by(DampingTable)
 class DampingSection(Section):
     """Damping ratio over the mode's frequency at the speed of a run: linear, constant beyond the ends."""
 
-    frequencies_hz: list[Annotated[float, Field(ge=0, le=1e12)]] = Field(min_length=2, description="Ascending frequencies")
-    ratios: list[DampingNumber] = Field(min_length=2, description="Damping ratio at each frequency")
-
     def _check(self) -> None:
-        if any(after <= before for before, after in pairwise(self.frequencies_hz)):
-            raise refused(("frequencies_hz",), f"{self.frequencies_hz}", "ascending frequencies")
-        if len(self.ratios) != len(self.frequencies_hz):
-            lengths = f"{len(self.ratios)} numbers for {len(self.frequencies_hz)} frequencies"
-            raise refused(("ratios",), lengths, "one for each frequency")
+        check_table(self, "frequencies_hz", "ratios")
 
 
 @declared_by(DampingRow)
 class DampingRowSection(Section):
     """Damping ratio of a mode at a speed, and its range; linear between the speeds of its rows, constant beyond."""
 
+    at_most_one_of = (("speed_rad_s", "speed_rpm"),)
+
     def _check(self) -> None:
-        if self.speed_rad_s is not None and self.speed_rpm is not None:
-            refuse_both_units("speed_rad_s", "speed_rpm")
         lowest, highest = (self.ratio if bound is None else bound for bound in (self.lowest, self.highest))
         if not lowest <= self.ratio <= highest:
             raise refused(("ratio",), f"{self.ratio:g} in a range from {lowest:g} to {highest:g}", "lowest <= ratio <= highest")
 
 
 def _check_rows(sections: list[DampingRowSection]) -> list[DampingRowSection]:
-    rows = [si_form(DampingRow, section) for section in sections]
-    places = [(row.mode, row.speed) for row in rows]
+    places = [(row.mode, row.speed) for row in map(si, sections)]
     for number, (mode, speed) in enumerate(places):
         others = [other for each, other in places[:number] if each == mode]
         if speed in others or (others and None in (speed, *others)):
@@ -88,12 +77,15 @@ def _check_rows(sections: list[DampingRowSection]) -> list[DampingRowSection]:
 
 
 DampingRows = Annotated[list[DampingRowSection], Field(min_length=1), AfterValidator(_check_rows)]
-DampingRatio: Any = or_section(DampingNumber, DampingSection, DampingRows)
+DampingRatio: Any = or_section(DampingNumber, DampingSection, rows=DampingRows)
+"""One number, a law with keys of its own, of which there may be several, or rows."""
 
 
 @declared_by(Scene)
 class SceneEntry(Section):
     """One scene of scenes.yaml; with `vary` or `designs` a family, many scenes that differ in some numbers."""
+
+    at_most_one_of = (FAMILY_WAYS,)
 
     base: Name | LeftOut = left_out("Scene of this file that gives what is left out; null leaves out a key that it has")
     tip_line: TipLine | LeftOut = left_out("Line of the contact nodes; by default structure.boundary.tip_line")
@@ -125,24 +117,25 @@ class SceneEntry(Section):
     designs: DesignTable = designs_field("scene")
 
     def _check(self) -> None:
-        is_family(self)
-        histories = ("stress_history_speeds_rad_s", "stress_history_speeds_rpm")
-        if all(getattr(self, key) for key in histories):
-            refuse_both_units(*histories)
-        for key in ("results", *histories):
+        if all(getattr(self, key) for key in _HISTORIES):
+            refuse_both_units(*_HISTORIES)
+        for key in ("results", *_HISTORIES):
             values = getattr(self, key)
             for number, value in enumerate(values):
                 if value in values[:number]:
                     raise refused((key, number), f"{value} twice", "each once")
-        if "wear" in self.results and self.lining is None:
-            raise refused(("results",), "wear", "only in a scene with a lining")
-        if "casing" in self.results and not self.casing.elastic:
-            raise refused(("results",), "casing", "only in a scene whose casing has a ring or ring_modes")
-        for result in ("shapes", "static_stress", "fatigue"):
-            if result in self.results and "stress" not in self.results:
-                raise refused(("results",), result, "only with stress among the results")
-        for key in histories:
-            if getattr(self, key) and "stress" not in self.results:
+        lined, stressed = self.lining is not None, "stress" in self.results
+        for results, possible, where in (
+            (("wear",), lined, "in a scene with a lining"),
+            (("casing",), self.casing.elastic, "in a scene whose casing has a ring or ring_modes"),
+            (("shapes", "static_stress", "fatigue"), stressed, "with stress among the results"),
+            (OF_ONE_BLADE, self.rotor is None, "in a scene without rotor: its results are of all blades together"),
+        ):
+            for result in results:
+                if result in self.results and not possible:
+                    raise refused(("results",), result, f"only {where}")
+        for key in _HISTORIES:
+            if getattr(self, key) and not stressed:
                 raise refused((key,), "speeds", "only with stress among the results")
         if self.casing.elastic and self.gap == "exact":
             raise refused(
@@ -157,29 +150,14 @@ class SceneEntry(Section):
             raise refused(("rotor",), "a rotor in this scene", refusal)
         if self.until == "settled":
             raise refused(("until",), "settled with a rotor", NO_ROTOR)
-        for result in OF_ONE_BLADE:
-            if result in self.results:
-                raise refused(
-                    ("results",), f"{result} with a rotor", "results of all blades together; a scene without rotor has it"
-                )
-
-    def stress_history_speeds(self) -> tuple[float, ...]:
-        """Speeds (rad/s) at which the largest stress of every revolution is kept."""
-        keys = ("stress_history_speeds_rad_s", "stress_history_speeds_rpm")
-        return si_fields((key, getattr(self, key)) for key in keys)["stress_history_speeds"]
 
     def scene(self) -> Scene:
         """The scene as the simulations take it."""
-        lining = self.lining and si_form(Lining, self.lining)
-        friction = self.friction and si_form(Friction, self.friction)
-        rotor = self.rotor and self.rotor.rotor()
-        damping: Any = self.damping_ratio
-        if isinstance(damping, DampingSection):
-            damping = DampingTable(**si_fields(damping))
-        elif isinstance(damping, list):
-            damping = tuple(si_form(DampingRow, row) for row in damping)
-        parts = {"lining": lining, "friction": friction, "rotor": rotor, "damping_ratio": damping}
-        return si_form(Scene, self, casing=self.casing.casing(), **parts)
+        return si(self)
+
+    def stress_history_speeds(self) -> tuple[float, ...]:
+        """Speeds (rad/s) at which the largest stress of every revolution is kept."""
+        return si_fields((key, getattr(self, key)) for key in _HISTORIES)["stress_history_speeds"]
 
 
 class Scenes(RootModel[ByName[SceneEntry]]):

@@ -4,7 +4,8 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, Self, TypeVar
+from itertools import pairwise
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Generic, Literal, Self, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, model_validator
 from pydantic.json_schema import SkipJsonSchema
@@ -31,7 +32,15 @@ class Without(Enum):
 
 
 class Section(BaseModel):
-    """A mapping of a configuration file: only declared keys, no null, no text for a number, nothing infinite."""
+    """A mapping of a configuration file: only declared keys, no null, no text for a number, nothing infinite.
+
+    `declares`: dataclass that declares its keys and is made of it (r37core.config.declaring.si). `one_of`, `at_most_one_of`:
+    keys of which an entry has exactly one, or at most one.
+    """
+
+    declares: ClassVar[Any] = None
+    one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    at_most_one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
@@ -51,11 +60,23 @@ class Section(BaseModel):
 
     @model_validator(mode="after")
     def _checked(self) -> Self:
+        for keys in (*self.one_of, *self.at_most_one_of):
+            given = [key for key in keys if getattr(self, key) is not None]
+            if len(given) > 1:
+                raise refused(
+                    (given[1],), " and ".join(given), "one of them; null (None in Python) leaves out an inherited one"
+                )
+            if not given and keys in self.one_of:
+                raise refused((), f"neither {' nor '.join(keys)}", "one of them")
         self._check()
         return self
 
     def _check(self) -> None:
         """Raise the error (`refused`) of keys that do not go together."""
+
+    def parts(self) -> dict[str, Any]:
+        """Fields of the dataclass that are made otherwise than of a key each."""
+        return {}
 
 
 def plain(section: BaseModel) -> dict[str, Any]:
@@ -66,6 +87,20 @@ def plain(section: BaseModel) -> dict[str, Any]:
 def refused(at: KeyPath, value: str, allowed: str) -> PydanticCustomError:
     """The error of a validator that compares several keys; `at` is the one to blame, seen from the validated section."""
     return PydanticCustomError("refused", "found {found}; allowed: {allowed}", {"at": at, "found": value, "allowed": allowed})
+
+
+def check_table(section: Section, places: str, values: str, at_zero: str = "") -> None:
+    """Raise the error of two lists, by their keys, that are no table: ascending places, and as many values.
+
+    `at_zero`: key of what holds at place 0, where a table of changes begins with 0.
+    """
+    x, y = getattr(section, places), getattr(section, values)
+    if (at_zero and x[0]) or any(after <= before for before, after in pairwise(x)):
+        raise refused((places,), f"{x}", f"ascending numbers{', the first of them 0' if at_zero else ''}")
+    if len(x) != len(y):
+        raise refused((values,), f"{len(y)} numbers for {len(x)} {places}", "one for each")
+    if at_zero and y[0]:
+        raise refused((values, 0), f"{y[0]:g} at the first of {places}", f"0; the clearance there is {at_zero}")
 
 
 def _unique(values: list[T]) -> list[T]:
@@ -125,15 +160,23 @@ Rpm = Annotated[float, Field(ge=0.01, le=9.5e6)]
 """An angular speed in revolutions per minute."""
 
 
-def or_section(kind: Any, section: type[Section], rows: Any = None) -> Any:
-    """Type of a key with a value of a `kind`, or a section in its place, or a list of the type `rows`."""
-    name = section.__name__
-    kinds: Any = Annotated[kind, Tag("value")] | Annotated[section, Tag(name)]  # type: ignore[valid-type]
+def or_section(kind: Any, *sections: Any, rows: Any = None) -> Any:
+    """Type of a key with a value of a `kind`, one of some sections in its place, or a list of the type `rows`.
+
+    Of several sections a mapping is the one whose keys it has most of.
+    """
+    kinds: Any = Annotated[kind, Tag("value")]
+    for tagged in sections:
+        kinds |= Annotated[tagged, Tag(tagged.__name__)]
     if rows is not None:
         kinds |= Annotated[rows, Tag("rows")]
 
     def kind_of(value: Any) -> str:
-        return name if isinstance(value, dict | section) else "rows" if rows and isinstance(value, list) else "value"
+        if isinstance(value, Section):
+            return type(value).__name__
+        if isinstance(value, dict):
+            return max(sections, key=lambda section: len(section.model_fields.keys() & value.keys())).__name__
+        return "rows" if rows and isinstance(value, list) else "value"
 
     return Annotated[kinds, Discriminator(kind_of)]
 

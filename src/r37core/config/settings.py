@@ -22,7 +22,7 @@ from r37core.time_integration.integration_choice import SECONDS_PER_STEP, Integr
 from .blade_sections import chosen_regions
 from .blades import BladeSettings, blade_settings, link_with
 from .config_file import Config, StructureSection
-from .declaring import si_form
+from .declaring import si, si_form
 from .document import ConfigRefusals, Document, Documents, chain_of_bases
 from .families import AnyEntry, Designs
 from .fidelity import Level, cheapest_level
@@ -299,7 +299,7 @@ def scenes_named(settings: Settings, chosen: Sequence[str] | str) -> list[str]:
 def operating_range(settings: Settings) -> OperatingRange | None:
     """Speeds in operation, where config.yaml has them."""
     section = settings.config.operating
-    return None if section is None else section.operating()
+    return None if section is None else si(section)
 
 
 def direct_on_points(settings: Settings) -> tuple[list[str], list[str]]:

@@ -1,7 +1,7 @@
 """Keys of blades.yaml that change a shape: sweep, lean, stagger, camber, chord and thickness."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Discriminator, Field, Tag, create_model
 
@@ -11,8 +11,8 @@ from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_spans
 from r37core.blade.section_changes import SectionChangeError, SpanLaw
 
-from .section import FileName, LeftOut, Section, left_out, refused
-from .varied import is_family
+from .section import FileName, LeftOut, Section, left_out
+from .varied import FAMILY_WAYS
 
 SECTION_KEYS = ("stagger_deg", "camber_deg", "chord_percent", "thickness_percent")
 """Keys of the changes of a blade's profiles."""
@@ -108,6 +108,8 @@ class SweepLean(Section):
 class ShapeKeys(Section):
     """Changes of profiles or sections, with at most one way to give sweep and lean."""
 
+    at_most_one_of: ClassVar[tuple[tuple[str, ...], ...]] = (SHIFTS, FAMILY_WAYS)
+
     stacking_table: FileName | LeftOut = left_out("Table (CSV) of sweep and lean with a column `blade`")
     sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = left_out(
         "Sweep and lean in this file, one entry per row"
@@ -123,9 +125,3 @@ class ShapeKeys(Section):
     camber_deg: Angles | LeftOut = left_out("Angle added to the camber kappa_ic - kappa_oc")
     chord_percent: Shares | LeftOut = left_out("Share of the chord that is kept, on the same cones")
     thickness_percent: Shares | LeftOut = left_out("Share of all thicknesses that is kept")
-
-    def _check(self) -> None:
-        is_family(self)
-        shifts = [key for key in SHIFTS if getattr(self, key) is not None]
-        if len(shifts) > 1:
-            raise refused((), " and ".join(shifts), f"at most one of {', '.join(SHIFTS)}")

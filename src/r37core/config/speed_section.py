@@ -42,16 +42,12 @@ RpmList: Any = Annotated[list[or_section(Rpm, RpmRange)], Field(min_length=1)]  
 class SpeedRule(Section):
     """Speeds of some blades or scenes (both, where both are given)."""
 
+    one_of = (("speeds", "speeds_rpm"),)
+
     blades: Names | LeftOut = left_out("Blades with these speeds; all without it")
     scenes: Names | LeftOut = left_out("Scenes with these speeds; all without it")
     speeds: SpeedList | LeftOut = left_out("Speeds of these blades and scenes")
     speeds_rpm: RpmList | LeftOut = left_out("The same speeds in revolutions per minute")
-
-    def _check(self) -> None:
-        if self.speeds is not None and self.speeds_rpm is not None:
-            refuse_both_units("speeds", "speeds_rpm")
-        if self.speeds is None and self.speeds_rpm is None:
-            raise refused((), "neither speeds nor speeds_rpm", "one of them")
 
 
 def word_or_speeds(*words: str) -> Any:

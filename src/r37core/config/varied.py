@@ -40,7 +40,9 @@ Vary = Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut
 Combine = Literal["grid", "pairs"]
 DesignTable = FileName | LeftOut
 COMBINE: Any = Field(default="grid", description="grid combines every value with every other, pairs the first with the first")
-FAMILY_KEYS = ("vary", "combine", "designs")
+FAMILY_WAYS = ("vary", "designs")
+FAMILY_KEYS = (*FAMILY_WAYS, "combine")
+"""Keys of a family, of which it has one of FAMILY_WAYS."""
 
 
 def vary_field(example: str) -> Any:
@@ -54,8 +56,5 @@ def designs_field(kind: str) -> Any:
 
 
 def is_family(entry: Any) -> bool:
-    """True if an entry is a family. Raises the error of one that is so in two ways."""
-    ways = [key for key in ("vary", "designs") if getattr(entry, key, None) is not None]
-    if len(ways) > 1:
-        raise refused((), "both vary and designs", "one of them")
-    return bool(ways)
+    """True if an entry is a family."""
+    return any(getattr(entry, key, None) is not None for key in FAMILY_WAYS)

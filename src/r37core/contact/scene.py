@@ -132,8 +132,12 @@ class Friction:
 class DampingTable:
     """Damping ratio of a mode over its frequency: linear between `frequencies` (Hz), constant beyond the ends."""
 
-    frequencies: tuple[float, ...]
-    ratios: tuple[float, ...]
+    frequencies: Annotated[tuple[float, ...], Key("Ascending frequencies", "_hz", ge=0, le=1e12, entries=2)]
+    ratios: Annotated[tuple[float, ...], Key("Damping ratio at each frequency", ge=0, lt=1, entries=2)]
+
+    def damping(self, frequencies: np.ndarray, speed: float | np.ndarray) -> np.ndarray:
+        """Damping ratios of modes: a damping law has this method, with the arguments and shapes of Scene.damping."""
+        return np.interp(frequencies / (2.0 * np.pi), self.frequencies, self.ratios)
 
 
 @dataclass(frozen=True)
@@ -186,10 +190,10 @@ class Scene:
         `frequencies`, shape (modes,) at a `speed` (rad/s), or (speeds, modes): all modes from the lowest on.
         """
         table = self.damping_ratio
-        if isinstance(table, DampingTable):
-            return np.interp(frequencies / (2.0 * np.pi), table.frequencies, table.ratios)
-        if not isinstance(table, tuple):
+        if isinstance(table, float | int):
             return table
+        if not isinstance(table, tuple):
+            return table.damping(frequencies, speed)
         ratios = np.empty(frequencies.shape)
         for mode in sorted({row.mode for row in table}):
             speeds, mode_ratios = zip(*sorted((row.speed or 0.0, row.ratio) for row in table if row.mode == mode), strict=True)

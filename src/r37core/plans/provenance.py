@@ -8,7 +8,7 @@ from collections import UserDict
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from r37core.base.plain import to_plain
+from r37core.base.plain import to_json, to_plain
 from r37core.rom.reduction_choice import LINEAR
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class Provenance:
         return Attributes(
             self._structure(blade),
             scene=scene,
-            scene_parameters=json.dumps(to_plain(chosen.scene)),
+            scene_parameters=to_json(chosen.scene),
             revolutions=chosen.revolutions,
             **({"until": "settled"} if chosen.until_settled else {}),
             largest_time_step=step,
@@ -88,4 +88,4 @@ def structure_hash(settings: Settings, blade: str) -> str:
 
 def _short_hash(*parts: object) -> str:
     """Hash of plain numbers, texts and frozen dataclasses."""
-    return hashlib.sha256(json.dumps(to_plain(parts)).encode()).hexdigest()[:16]
+    return hashlib.sha256(to_json(parts).encode()).hexdigest()[:16]

@@ -1,6 +1,5 @@
 """The plan of the sweep: simulations, rounds of refinement, and the datasets that are joined of them."""
 
-import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
@@ -8,13 +7,14 @@ from itertools import chain, count, takewhile
 from pathlib import Path
 from typing import Any
 
-from r37core.adaptive.refinement_choice import RefinementChoice, Window
+from r37core.adaptive.refinement_choice import RefinementChoice
 from r37core.base.io import as_list, read_json, readable
-from r37core.base.plain import to_plain
+from r37core.base.plain import to_json, to_plain
 from r37core.base.speeds import SpeedPlan
 from r37core.config import Settings, si_form
 from r37core.contact.scene import Scene
 from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.speed_job import Task
 from r37core.time_integration.speed_run import OF_RUNS
 
 from . import paths
@@ -168,8 +168,7 @@ class Sweep:
         settings = self.settings
         refinement = settings.config.refinement.scene_refinement(settings.scenes[wildcards.scene].scene)
         prominence = settings.config.interactions.prominence
-        windows = tuple(si_form(Window, window) for window in refinement.windows)
-        return to_plain(si_form(RefinementChoice, refinement, windows=windows, prominence=prominence))
+        return to_plain(si_form(RefinementChoice, refinement, prominence=prominence))
 
 
 def _evenly(names: list[str], most: int) -> list[str]:
@@ -205,4 +204,4 @@ def _all_of(plan: SpeedPlan) -> frozenset[float]:
 @cache
 def _task(scene: Scene, choice: IntegrationChoice, results: tuple[str, ...], kept: tuple[tuple[str, int], ...]) -> str:
     """Text of a task, made and kept once for the speeds that have the same."""
-    return json.dumps({"scene": to_plain(scene), "choice": to_plain(choice), "results": results, "kept": dict(kept)})
+    return to_json(Task(scene, choice, results, dict(kept)))

@@ -2,20 +2,32 @@
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, TypeVar
 
 from r37core.base.io import JOB_LOG, as_list, readable
-from r37core.base.plain import from_plain
+from r37core.base.plain import from_json, from_plain
 from r37core.contact.scene import Scene
-from r37core.rom.contact_model import ContactModel, read_contact_model
+from r37core.rom.contact_model import read_contact_model
 from r37core.stress.operator import read_stress_operators
 
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .speed_file import write_speed
 from .speed_run import run_speed, simulation_of
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a simulation does, at whichever speed; as JSON text a parameter of its job. `kept`: see run_speed."""
+
+    scene: Scene
+    choice: IntegrationChoice
+    results: tuple[str, ...]
+    kept: Mapping[str, int]
+
 
 _Model = TypeVar("_Model")
 _READY = set[tuple[str, str]]()
@@ -37,9 +49,18 @@ def run_job(speed: str, output: str, task: str, about: str, *models: str, motion
 
     Raises InputFileError, and what Problem and `run_speed` raise.
     """
-    wanted, (model, *stress) = json.loads(task), models
+    wanted, (model, *stress) = from_json(Task, task), models
     operators = _kept(read_stress_operators, *stress) if stress else None
-    run = run_speed(*_given(model, speed, wanted), wanted["results"], **wanted["kept"], stress=operators, motion=motion)
+    run = run_speed(
+        _kept(read_contact_model, model),
+        float(speed),
+        wanted.scene,
+        wanted.choice,
+        wanted.results,
+        **wanted.kept,
+        stress=operators,
+        motion=motion,
+    )
     write_speed(run, output, json.loads(about))
 
 
@@ -60,15 +81,11 @@ def make_ready(input: Any, params: Any) -> None:
     if (model, task) in _READY:
         return
     _READY.add((model, task))
-    simulation_of(*_given(model, params.job["speed"], json.loads(task)))
+    wanted = from_json(Task, task)
+    simulation_of(_kept(read_contact_model, model), float(params.job["speed"]), wanted.scene, wanted.choice)
     if stress:
         for operator in _kept(read_stress_operators, *stress).values():
             _ = operator.deviatoric
-
-
-def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:
-    scene, choice = from_plain(Scene, wanted["scene"]), from_plain(IntegrationChoice, wanted["choice"])
-    return _kept(read_contact_model, model), float(speed), scene, choice
 
 
 def _kept(read: Callable[[str], _Model], file: str) -> _Model:
