@@ -141,8 +141,8 @@ class OperatingSection(Section):
             raise refused((), f"an operating range from {both}", "a redline above idle")
         for number, dwell in enumerate(operating.dwell):
             if dwell.start < operating.idle or dwell.stop > operating.redline:
-                found = f"{dwell.start:.6g} to {dwell.stop:.6g} rad/s"
-                raise refused(("dwell", number), found, f"speeds between idle and redline, {both}")
+                speeds = f"{dwell.start:.6g} to {dwell.stop:.6g} rad/s"
+                raise refused(("dwell", number), speeds, f"speeds between idle and redline, {both}")
         total = sum(dwell.share for dwell in operating.dwell)
         if total > 1.0 + 1e-9:
             raise refused(("dwell",), f"{100.0 * total:g} percent of the time", "at most 100 percent together")

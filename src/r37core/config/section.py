@@ -61,12 +61,11 @@ class Section(BaseModel):
     @model_validator(mode="after")
     def _checked(self) -> Self:
         for keys in (*self.one_of, *self.at_most_one_of):
-            given = [key for key in keys if getattr(self, key) is not None]
-            if len(given) > 1:
-                raise refused(
-                    (given[1],), " and ".join(given), "one of them; null (None in Python) leaves out an inherited one"
-                )
-            if not given and keys in self.one_of:
+            present = [key for key in keys if getattr(self, key) is not None]
+            if len(present) > 1:
+                allowed = "one of them; null (None in Python) leaves out an inherited one"
+                raise refused((present[1],), " and ".join(present), allowed)
+            if not present and keys in self.one_of:
                 raise refused((), f"neither {' nor '.join(keys)}", "one of them")
         self._check()
         return self
