@@ -11,7 +11,7 @@ LOCK := envs/lock.txt
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint $(LOCK)
 
 .DEFAULT_GOAL := help
-.PHONY: help all_blades campbell test test-fast mutants size lint validation test-validation site setup lock clean clean-results
+.PHONY: help all_blades campbell report test test-fast mutants size lint validation test-validation site setup lock clean clean-results
 
 help: ## this list
 	@awk -F ': .*## ' '/^[a-z][a-z_-]*:.*## / {printf "make %-14s %s\n", $$1, $$2}' Makefile
@@ -20,6 +20,10 @@ all_blades: ## the main job, all blades: simulations, figures, ranking, explorer
 campbell: ## only the Campbell diagrams, without simulations
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/python -m snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
+
+RESULTS ?= results
+report: $(VENV)/.ready ## a finished run in one file, for a colleague: report.zip; RESULTS=results/runs/NAME of a run with a name
+	@$(BIN)/python -m r37core.console.report '$(RESULTS)'
 
 # the files of tests spread over the cores, the longest first; RECORD=yes writes their durations, which the order follows
 SPREAD := --numprocesses $(CORES) --dist loadfile --no-loadscope-reorder --max-worker-restart 0

@@ -142,7 +142,7 @@ print(results.ranking[["blade", "rank", "length_most_revolutions_rad_s", "larges
 #
 # - In both scenes, at full accuracy: put the blade into `config/blades.yaml` and run `make all_blades`. Nothing of the other
 #   blades is run again.
-# - `results/explorer.html` shows all blades linked, in one file.
+# - `results/explorer.html` shows all blades linked, `make report` makes one file of it.
 # - A family instead of one blade: `r37.designs(..., vary={"chordwise_sweep_deg": [0, 5, 10]})`. Ten figures, each with its
 #   code: [gallery.md](gallery.md).
 # - A mesh or matrices of another program: [your_blade.md](your_blade.md).

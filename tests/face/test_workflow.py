@@ -2,9 +2,13 @@
 
 import contextlib
 import errno
+import json
 import os
 import re
 import shutil
+import subprocess
+import sys
+import zipfile
 from collections import Counter
 from pathlib import Path
 
@@ -15,11 +19,12 @@ import pytest
 import yaml
 from browser import opened
 from snakemake.exceptions import WorkflowError
-from workflow_runs import copy_odd_project, digests, lose_speed, overlay, plan, planned, run_in_odd_project, snakemake
+from workflow_runs import LONGEST, copy_odd_project, digests, lose_speed, overlay, plan, planned, run_in_odd_project, snakemake
 
 from r37core.base.dataset_file import read_dataset
 from r37core.base.io import OutputFileError, atomic_write
 from r37core.base.yaml_file import load_yaml
+from r37core.console.report import main as report
 from r37core.console.snakemake_run import check_machine
 from r37core.time_integration.speed_file import read_speed
 
@@ -253,6 +258,34 @@ def test_one_core_gives_the_same_bits_in_any_folder(root, small_sweep, tmp_path,
     assert made.items() <= digests(small_sweep).items()
 
 
+def test_report_of_a_run_by_its_own_configuration(sweep_copy, monkeypatch, capsys):
+    """Whatever config.yaml says since, or a command line said then; a folder without a run is refused with what there is."""
+    results = sweep_copy / "results/runs/first"
+    (sweep_copy / "results").rename(sweep_copy / "first")
+    results.parent.mkdir(parents=True)
+    (sweep_copy / "first").rename(results)
+    configuration = json.loads((results / "configuration.json").read_text())
+    configuration["config"]["run"]["name"] = "first"
+    (results / "configuration.json").write_text(json.dumps(configuration))
+    overlay(sweep_copy, "config.yaml", "{ blades: [S100], speeds: [1000] }")
+
+    monkeypatch.chdir(sweep_copy)
+    for folder in ("results", "results/runs/frist"):
+        assert report([folder]) == 1
+        refused = capsys.readouterr().err
+        assert f"RESULTS: found {folder}, where no configuration.json of a run lies" in refused
+        assert refused.endswith("; runs with a name: results/runs/first\n")
+    command = [sys.executable, "-m", "r37core.console.report", "results/runs/first"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, check=False)
+    assert done.returncode == 0, done.stderr
+    with zipfile.ZipFile(results / "report.zip") as archive:
+        names = {Path(name).name for name in archive.namelist()}
+    assert names >= {"report.html", "summary.csv", "response_CS100.png"} and "response_S100.png" not in names
+    shutil.copytree(results, sweep_copy / "results/runs/copy")
+    assert report(["results/runs/copy"]) == 1
+    assert "found results/runs/copy, a copy of the results in results/runs/first" in capsys.readouterr().err
+
+
 def test_files_with_other_times_run_nothing_again(sweep_copy):
     """As `cp -r` gives them, in the order of its writing. Files above a megabyte count by their content, too."""
     models = list(sweep_copy.glob("results/*/rom_*.nc"))
@@ -265,11 +298,13 @@ def test_files_with_other_times_run_nothing_again(sweep_copy):
     assert "contact_model" in planned(sweep_copy)
 
 
-def test_a_folder_that_cannot_be_written_is_refused_before_the_first_job(sweep_copy, monkeypatch):
+def test_a_folder_that_cannot_be_written_is_refused_before_the_first_job(sweep_copy, monkeypatch, capsys):
     """As on a read-only mount, which not even root may write."""
     monkeypatch.chdir(sweep_copy)
     monkeypatch.setattr(os, "access", lambda *_: False)
     told = "results: cannot be written; change the folder's rights, or work in a copy of the whole project (cp -a)"
+    assert report(["results"]) == 1
+    assert capsys.readouterr().err == f"{told}\n"
     with pytest.raises(WorkflowError, match=re.escape(told)):
         check_machine(Path("results"), WorkflowError, reads_only=False)
     check_machine(Path("results"), WorkflowError, reads_only=True)
