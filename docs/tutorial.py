@@ -123,7 +123,7 @@ plt.show()
 # %%
 about = {"crossing": {"mode": "1B", "engine_order": int(order), "first": -0.015, "last": 0.07}}
 rates = {"slow": {**about, "rate_rad_s2": 100}, "fast": {**about, "rate_rad_s2": 1000}}
-run_ups = r37.run_ups(mine, "abradable", rates, cores=2, **draft)
+run_ups = r37.run(mine, "abradable", run_ups=rates, targets="results/run_ups.nc", cores=2, **draft)["run_ups"]
 for name, stress in zip(run_ups.run_up.values, run_ups.max_von_mises.max("revolution").values, strict=True):
     print(f"{name}: up to {1e-9 * stress:.2f} GPa")
 figure = r37.plot_run_ups(run_ups)
@@ -134,7 +134,7 @@ figure = r37.plot_run_ups(run_ups)
 # Blades are ranked by how long a range of speeds is above yield.
 
 # %%
-results = r37.compare(["Ref", mine], "abradable", speeds, cores=2, **draft)
+results = r37.run(["Ref", mine], "abradable", speeds, cores=2, **draft)
 print(results.ranking[["blade", "rank", "length_most_revolutions_rad_s", "largest_median_stress_pa"]].to_string(index=False))
 
 # %% [markdown]
@@ -143,6 +143,6 @@ print(results.ranking[["blade", "rank", "length_most_revolutions_rad_s", "larges
 # - In both scenes, at full accuracy: put the blade into `config/blades.yaml` and run `make all_blades`. Nothing of the other
 #   blades is run again.
 # - `results/explorer.html` shows all blades linked, `make report` makes one file of it.
-# - A family instead of one blade: `r37.designs(..., vary={"chordwise_sweep_deg": [0, 5, 10]})`. Ten figures, each with its
+# - A family instead of one blade: `r37.blade(..., vary={"chordwise_sweep_deg": [0, 5, 10]})`. Ten figures, each with its
 #   code: [gallery.md](gallery.md).
 # - A mesh or matrices of another program: [your_blade.md](your_blade.md).

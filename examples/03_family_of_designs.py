@@ -7,8 +7,8 @@ blades which close their gap less are the safer ones; a share of the sweep of S1
 import r37
 
 family = {"sweep_percent": [0, 50, 100]}
-blade = r37.blade("S100", kinematics="quadratic", contact="patches")
-results = r37.designs(blade, "material_abradable", [1680, 1700], vary=family, name="Sweep", fidelity="draft", cores=2)
+blade = r37.blade("S100", name="Sweep", kinematics="quadratic", contact="patches", vary=family)
+results = r37.run(blade, "material_abradable", [1680, 1700], fidelity="draft", cores=2)
 
 designs = results.tables["designs"].set_index("sweep_percent")
 for share, row in designs.iterrows():

@@ -8,7 +8,8 @@ import r37
 
 about = {"crossing": {"mode": "1B", "engine_order": 4, "first": -0.015, "last": 0.07}}
 rates = {"slow": {**about, "rate_rad_s2": 300}, "fast": {**about, "rate_rad_s2": 3000}}
-run_ups = r37.run_ups("Ref", "abradable", rates, fidelity="draft", cores=2)
+asked = {"run_ups": rates, "targets": "results/run_ups.nc"}
+run_ups = r37.run("Ref", "abradable", **asked, fidelity="draft", cores=2)["run_ups"]
 
 largest = run_ups.maximum_normal.sel(tip_point="leading_edge").max("revolution")
 peaks = dict(zip(run_ups.run_up.values, largest.values, strict=True))

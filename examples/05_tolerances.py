@@ -7,9 +7,10 @@ speeds as the blade itself, on patches of the tip and with large displacements, 
 import r37
 
 spread = {"friction.coefficient": {"uniform_percent": 10}, "casing.clearance_m": {"uniform_percent": 5}}
+tolerances = {"of_scenes": spread, "members": 4}
 speeds = {"start": 1680, "stop": 1760, "step": 20}
 blade = r37.blade("Ref", kinematics="quadratic", contact="patches", name="Large")
-results = r37.tolerances(blade, "material_abradable", [speeds], of_scenes=spread, members=4, fidelity="draft", cores=2)
+results = r37.run(blade, "material_abradable", [speeds], tolerances=tolerances, fidelity="draft", cores=2)
 members = results["tolerances"].isel(blade=0, scene=0)
 
 stress = 1e-9 * members.largest_stress

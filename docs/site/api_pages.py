@@ -10,7 +10,7 @@ from written_pages import write_folder
 
 CORE = Path(__file__).parent.parent.parent / "src" / "r37core"
 
-INSIDE = "above, check, family"
+INSIDE = "above, check, designs, is_family"
 """Members of the classes of r37 that its own calls alone use."""
 
 SECTIONS = {"Args": "Arguments", "Returns": "Returns", "Raises": "Raises", "Examples": "Examples"}
@@ -119,18 +119,6 @@ def write_pages(app):
     write_folder(Path(app.srcdir) / "api", ".rst", pages)
 
 
-def with_options(app, what, name, obj, options, signature, returned):
-    """A signature with the arguments of its `**options` by name, as a caller writes them."""
-    call = inspect.unwrap(obj)
-    if what != "function" or not signature or "**options" not in signature or not name.startswith("r37."):
-        return None
-    kind = re.search(r"Unpack\[(\w+)\]", call.__annotations__["options"])[1]
-    arguments = call.__globals__[kind].__annotations__
-    named = ", ".join(f"{key}: {annotation.__forward_arg__} = ..." for key, annotation in arguments.items())
-    keyword_only = "" if "*, " in signature else "*, "
-    return re.sub(r"\*\*options(: [^,)]*\])?", keyword_only + named, signature), returned
-
-
 def as_plain_text(app, what, name, obj, options, lines):
     """Docstrings are plain text with `code`, whatever | * _ mean to docutils; an indented paragraph is shown as it is."""
     paragraphs = re.split(r"\n{2,}", "\n".join(lines))
@@ -165,5 +153,4 @@ def setup(app):
     """Register it with Sphinx."""
     app.connect("builder-inited", write_pages)
     app.connect("autodoc-process-docstring", as_plain_text)
-    app.connect("autodoc-process-signature", with_options)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

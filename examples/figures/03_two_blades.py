@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import r37
 
 speeds = {"start": 1520, "stop": 1780, "step": 20, "refine_to": 2}
-results = r37.compare(["Ref", "CS50"], "abradable", speeds, fidelity="draft", cores=2)
+results = r37.run(["Ref", "CS50"], "abradable", speeds, fidelity="draft", cores=2)
 
 figure, axes = plt.subplots(layout="constrained")
 for blade in ("Ref", "CS50"):

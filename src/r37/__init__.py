@@ -24,10 +24,8 @@ if TYPE_CHECKING:
     from .plots import plot_campbell, plot_designs, plot_response, plot_rotor, plot_run_ups, plot_tolerances
     from .rub_tests import lining_from_rub_test
     from .run_results import RunResults, open_results
-    from .run_up_calls import run_up, run_ups
     from .runs import run
     from .simulations import campbell, reduced_model, simulate, sweep
-    from .studies import compare, compare_measured, designs, rotor, search, tolerances
     from .study_folder import SNAKEFILE, init
 
 __all__ = [
@@ -43,9 +41,6 @@ __all__ = [
     "blade",
     "blades",
     "campbell",
-    "compare",
-    "compare_measured",
-    "designs",
     "init",
     "lining_from_rub_test",
     "open_results",
@@ -56,16 +51,11 @@ __all__ = [
     "plot_run_ups",
     "plot_tolerances",
     "reduced_model",
-    "rotor",
     "run",
-    "run_up",
-    "run_ups",
     "scene",
     "scenes",
-    "search",
     "simulate",
     "sweep",
-    "tolerances",
 ]
 
 _NAMES_OF = {
@@ -77,10 +67,8 @@ _NAMES_OF = {
     ".plots": ("plot_campbell", "plot_designs", "plot_response", "plot_rotor", "plot_run_ups", "plot_tolerances"),
     ".rub_tests": ("lining_from_rub_test",),
     ".run_results": ("RunResults", "open_results"),
-    ".run_up_calls": ("run_up", "run_ups"),
     ".runs": ("run",),
     ".simulations": ("campbell", "reduced_model", "simulate", "sweep"),
-    ".studies": ("compare", "compare_measured", "designs", "rotor", "search", "tolerances"),
     ".study_folder": ("SNAKEFILE", "init"),
 }
 """Modules that are imported when one of their names is first used: the command starts in a tenth of a second."""

@@ -17,25 +17,21 @@ Speeds = Iterable[float | Mapping[str, float]] | Mapping[str, float]
 
 
 def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
-    """The key of config.yaml that speeds stand under, with plain numbers and ranges. Raises ConfigError.
+    """The key of config.yaml that speeds stand under, with plain numbers and ranges, which the configuration checks.
 
-    One of both is given; their bounds are the configuration's.
+    One of both is given. Raises ConfigError.
     """
     key, unit, several = _single_unit("speeds", speeds, speeds_rpm)
     if isinstance(several, Mapping):
         several = [several]
     if isinstance(several, str | bytes) or not isinstance(several, Iterable):
         raise ConfigError(f"{key}: found {single_line(repr(several))}; allowed: a list of numbers and ranges, in {unit}")
-    entries = finite(several, key)
-    return {key: [_range(entry, key, unit) if isinstance(entry, Mapping) else number(entry, key, unit) for entry in entries]}
+    return {key: plain_value(finite(several, key))}
 
 
 def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
     """Key of config.yaml with the one speed of a call; see speed_keys."""
     key, unit, value = _single_unit("speed", speed, speed_rpm)
-    if isinstance(value, Iterable) and not isinstance(value, str) and getattr(value, "ndim", True):
-        told = single_line(repr(value))
-        raise ConfigError(f"{key}: found {told}; allowed: one number, in {unit}; several are for r37.sweep")
     return {key.replace("speed", "speeds"): [number(value, key, unit)]}
 
 
@@ -66,12 +62,6 @@ def plain_value(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def keys_of_its_own(options: Mapping[str, Any], common: type) -> dict[str, Any]:
-    """Options of a call that are keys of its section of config.yaml, plain: those that are given and not in `common`."""
-    own = {name: value for name, value in options.items() if name not in common.__annotations__ and value is not None}
-    return plain_value(own)
-
-
 def finite(several: Iterable[Any], key: str) -> list[Any]:
     """The items of what may have no end. Raises ConfigError for more than there can be speeds."""
     items = list(islice(several, LARGEST_NUMBER + 1))
@@ -80,20 +70,9 @@ def finite(several: Iterable[Any], key: str) -> list[Any]:
     return items
 
 
-def mapping(value: Any, key: str, allowed: str) -> dict[str, Any]:
-    """A mapping from Python, of plain types. Raises ConfigError."""
-    if not isinstance(value, Mapping) or not all(isinstance(name, str) for name in value):
-        raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: {allowed}")
-    return {name: plain_value(entry) for name, entry in value.items()}
-
-
 def number(value: Any, key: str, unit: str) -> float:
     """A plain number of one that may be NumPy's. Raises ConfigError."""
     plain = plain_value(value)
     if isinstance(plain, bool) or not isinstance(plain, int | float):
-        raise ConfigError(f"{key}: found {single_line(repr(plain))}; allowed: numbers, in {unit}")
+        raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: one number, in {unit}")
     return plain
-
-
-def _range(entry: Mapping[str, Any], key: str, unit: str) -> dict[str, float]:
-    return {name: number(value, f"{key}: {name}", unit) for name, value in entry.items()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import os
 import warnings
@@ -9,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any, TypeVar
 
 from r37core.config import ConfigError, Document, Settings, command_line_document
 from r37core.config.cross_checks import history_speeds_are_run
@@ -19,7 +20,7 @@ from r37core.product.extensions import EXTENSIONS, READER
 
 from .arguments import finite
 from .call_configuration import Configuration, read_configuration
-from .choices import BladeChoice, Choice, SceneChoice
+from .choices import BladeChoice, Choice, SceneChoice, scenes_named
 
 _SPEEDS = ("speeds", "speeds_rpm", "speeds_for")
 
@@ -33,19 +34,15 @@ _READER = replace(READER, checks=tuple(check for check in READER.checks if check
 """A call names its speeds: of those with a stress history it has the ones that it runs."""
 
 
-class OneOptions(TypedDict, total=False):
-    """Options of every call of one blade in a scene, as of `r37.simulate`."""
-
-    fidelity: str | None
-    results: Sequence[str] | None
-    config: Path | str | None
+C = TypeVar("C", bound=Choice)
 
 
 @dataclass(frozen=True)
 class Call:
     """Blades of one file in scenes of one file, with `keys` of config.yaml on top of `base`; `name`: of the call, for messages.
 
-    Without blades or scenes those of `base` are taken. `whole`: what `base` says of a run counts, too, but for its section run.
+    Without blades or scenes those of `base` are taken. `results`: in place of the scenes' own, which is no change of a scene.
+    `whole`: what `base` says of a run counts, too, but for its section run.
     """
 
     name: str
@@ -53,7 +50,8 @@ class Call:
     blades: Sequence[BladeChoice]
     scenes: Sequence[SceneChoice]
     keys: Mapping[str, Any]
-    whole: bool = False
+    results: Sequence[str] | None
+    whole: bool
 
     @cached_property
     def settings(self) -> Settings:
@@ -66,8 +64,10 @@ class Call:
         content = {key: value for key, value in below.content.items() if key not in left_out}
         locations = {path: line for path, line in below.locations.items() if not path or path[0] not in left_out}
         document = replace(below, content=content, locations=locations).overlaid(command_line_document(keys, self.name))
-        changes = {"blades_above": above(self.blades), "scenes_above": above(self.scenes)}
-        return _READER.load_settings(document, Configuration(document).root, **changes)
+        asked = {} if self.results is None else {scene.name: {"results": self.results} for scene in self.scenes}
+        scenes = above(self.scenes, command_line_document(asked, self.name))
+        root = Configuration(document).root
+        return _READER.load_settings(document, root, blades_above=above(self.blades), scenes_above=scenes)
 
     @property
     def told(self) -> dict[str, str]:
@@ -80,64 +80,58 @@ class Call:
         tell([*remarks_on_input(self.settings, changed), *remarks_at_end(self.settings)])
 
 
-def chosen_blade(blade: BladeChoice | str, config: Path | str | None) -> BladeChoice:
-    """The blade, of the configuration `config` where it is a name. Raises ConfigError."""
-    if not isinstance(blade, BladeChoice | str):
-        raise ConfigError(f"blade: found {blade!r}; allowed: the name of a blade, or what r37.blade gives")
-    chosen = blade if isinstance(blade, BladeChoice) else BladeChoice(blade, {}, read_configuration(config))
-    chosen.check()
-    return chosen
-
-
-def chosen_scene(scene: SceneChoice | str, base: Configuration, results: Sequence[str] | None = None) -> SceneChoice:
-    """The scene, of the configuration `base` where it is a name, with other `results` if there are any. Raises ConfigError."""
-    if not isinstance(scene, SceneChoice | str):
-        raise ConfigError(f"scene: found {scene!r}; allowed: the name of a scene, or what r37.scene gives")
-    chosen = scene if isinstance(scene, SceneChoice) else SceneChoice(scene, {}, base)
-    if isinstance(results, str):
-        raise ConfigError(f'results: found "{results}"; allowed: a list, as in results=["{results}"]')
-    if results is not None:
-        if not isinstance(results, Iterable):
-            raise ConfigError(f"results: found {results!r}; allowed: a list of names")
-        # results are no change of the scene
-        chosen = replace(chosen, results=tuple(finite(results, "results")))
-    chosen.check()
-    return chosen
-
-
-def base_of(blades: Sequence[BladeChoice], config: Path | str | None) -> Configuration:
-    """The configuration of structure and levels: `config`, else that of the blades."""
-    return blades[0].configuration if blades and config is None else read_configuration(config)
-
-
 def call_of(
     caller: str,
-    blades: Iterable[BladeChoice | str],
-    scenes: Iterable[SceneChoice | str],
+    blades: Iterable[BladeChoice | str] | None,
+    scenes: Iterable[SceneChoice | str] | None,
     keys: Mapping[str, Any],
-    options: Mapping[str, Any],
     *,
-    named: bool = False,
+    config: Path | str | None,
+    fidelity: str | None,
+    results: Sequence[str] | None = None,
     whole: bool = False,
 ) -> Call:
-    """The call of these blades in these scenes, whose names stand in tables if `named`; `options` as of OneOptions.
+    """The call of these blades in these scenes, of the configuration `config` where they are names, or of all that it runs.
 
-    Raises ConfigError.
+    `whole`: of a run, in whose tables their names stand; else of a blade in a scene, neither of which is a family. Raises
+    ConfigError.
     """
-    config, fidelity = options.get("config"), options.get("fidelity")
-    chosen = [chosen_blade(blade, config) for blade in blades]
-    base = base_of(chosen, config)
-    rubs_on = [chosen_scene(scene, base, options.get("results")) for scene in scenes]
-    for choices in (chosen, rubs_on) if named else ():
-        names_of_their_own(choices)
-    return Call(caller, base, chosen, rubs_on, {**keys, **({} if fidelity is None else {"fidelity": fidelity})}, whole)
+    if isinstance(results, str) or not isinstance(results, Iterable | None):
+        raise ConfigError(f'results: found {single_line(repr(results))}; allowed: a list of names, as in results=["stress"]')
+    base = read_configuration(config)
+    blade_choices = [chosen(BladeChoice, blade, base) for blade in blades or ()]
+    if blade_choices and config is None:
+        base = blade_choices[0].configuration
+    if scenes is None and results is not None:
+        # results are a key of each scene
+        scenes = scenes_named(base)
+    scene_choices = [chosen(SceneChoice, scene, base) for scene in scenes or ()]
+    for choices in (blade_choices, scene_choices):
+        if whole:
+            names_of_their_own(choices)
+        elif families := [choice for choice in choices if choice.is_family]:
+            kind, design = families[0].kind, next(iter(families[0].designs.families[families[0].name].designs))
+            raise ConfigError(f"{kind}: found the family {families[0].name}; allowed: a {kind}, such as {design}")
+    level = {} if fidelity is None else {"fidelity": fidelity}
+    asked = None if results is None else finite(results, "results")
+    return Call(caller, base, blade_choices, scene_choices, {**keys, **level}, asked, whole)
 
 
-def several(value: Any, kind: type[Choice]) -> list[Any]:
-    """One blade or scene, or several of them, as a list. Raises ConfigError for others and for none."""
+def chosen(kind: type[C], choice: C | str, base: Configuration) -> C:
+    """The blade or scene, of the configuration `base` where it is a name, checked. Raises ConfigError."""
+    if not isinstance(choice, kind | str):
+        name = kind.kind
+        raise ConfigError(f"{name}: found {single_line(repr(choice))}; allowed: the name of a {name}, or what r37.{name} gives")
+    entry = kind(choice, {}, base) if isinstance(choice, str) else choice
+    entry.check()
+    return entry
+
+
+def several(value: Any, kind: type[Choice]) -> list[Any] | None:
+    """One blade or scene, or several of them, as a list; None as it is. Raises ConfigError for others and for an empty list."""
+    if value is None or isinstance(value, kind | str):
+        return None if value is None else [value]
     name = kind.kind
-    if isinstance(value, kind | str):
-        return [value]
     if isinstance(value, bytes | type) or not isinstance(value, Iterable):
         allowed = f"the name of a {name}, or what r37.{name} gives, or a list of them"
         raise ConfigError(f"{name}s: found {single_line(repr(value))}; allowed: {allowed}")
@@ -167,19 +161,20 @@ def _one_file(key: str, choices: Sequence[Choice]) -> str:
     return files[0]
 
 
-def above(choices: Sequence[Choice]) -> Document | None:
-    """The changes of some entries as one document."""
-    documents = [choice.above for choice in choices if choice.above]
+def above(choices: Sequence[Choice], *others: Document) -> Document | None:
+    """The changes of some entries, and `others` on top, as one document."""
+    documents = [choice.above for choice in choices if choice.above] + [other for other in others if other.content]
     return reduce(Document.overlaid, documents) if documents else None
 
 
-_PACKAGE = str(Path(__file__).parent) + os.sep
+_OWN_FILES = (str(Path(__file__).parent) + os.sep, contextlib.__file__)
+"""Beginnings of the names of files that a call runs through: this package, and the decorator of its calls."""
 
 
 def tell(remarks: Iterable[str]) -> None:
     """Warn whoever has called r37: each remark points at the innermost line outside this package."""
     level, frame = 1, inspect.currentframe()
-    while frame and frame.f_code.co_filename.startswith(_PACKAGE):
+    while frame and frame.f_code.co_filename.startswith(_OWN_FILES):
         level, frame = level + 1, frame.f_back
     for remark in remarks:
         warnings.warn(remark, stacklevel=level)

@@ -4,25 +4,25 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, ClassVar, Self, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from r37core.base.varied_number import with_value
 from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
 from r37core.config.blades import blade_settings
-from r37core.config.families import expanded_families
+from r37core.config.families import Designs
 from r37core.config.messages import did_you_mean, single_line
-from r37core.config.reading import blades_of_file
-from r37core.config.scenes import SceneEntry, checked_scenes
+from r37core.config.reading import blades_of_file, scenes_of_file
+from r37core.config.scenes import SceneEntry
 from r37core.config.section import Without
 from r37core.config.shape_keys import SECTION_KEYS, SHARES
 
 from .arguments import plain_value
 from .call_configuration import Configuration, read_configuration
-from .stages import checked_call
+from .stages import stages
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,16 @@ class Choice:
     base: str | None = None
 
     kind: ClassVar[str]
-    checked: ClassVar[str]
-    """Name of the attribute that checks the entry."""
+
+    @cached_property
+    def designs(self) -> Designs[Any]:
+        """All entries of the file with the changes on top, designs of families included. Raises ConfigError."""
+        return _FILES[self.kind](self.configuration.root, self.file, self.above)
+
+    @property
+    def is_family(self) -> bool:
+        """True for a family of designs: no blade or scene by itself. Raises ConfigError."""
+        return self.name in self.designs.families
 
     @property
     def label(self) -> str:
@@ -58,23 +66,17 @@ class Choice:
         """Name of the file with the entry."""
         return getattr(self.configuration.checked, f"{self.kind}s_file")
 
-    @property
-    def _keys(self) -> Mapping[str, Any]:
-        """Dotted keys that lie on top of the entry, and their values."""
-        return self.changes
-
     @cached_property
     def above(self) -> Document | None:
         """The changes as a document that lies on top of the file. Raises ConfigError."""
-        changes = self._keys
-        if not changes and not self.base:
+        if not self.changes and not self.base:
             return None
         original, file = self.base or self.name, read_document(Path(self.file).parent, self.file)
         place, entries = f'r37.{self.kind}("{original}")', file.content if isinstance(file.content, Mapping) else {}
         if original not in entries:
             raise _unknown(f"changed {self.kind}", original, entries, file.name)
         content: dict[str, Any] = {}
-        for key, value in changes.items():
+        for key, value in self.changes.items():
             content = with_value(content, key, self._left_out(entries[original]) if value is None else plain_value(value))
         changed = command_line_document({self.name: content}, place)
         if self.base is None:
@@ -95,9 +97,14 @@ class Choice:
     def check(self) -> None:
         """Raises ConfigError for what the entry cannot be."""
         try:
-            getattr(self, self.checked)
+            if self.name not in self.designs.names:
+                raise _unknown(self.kind, self.name, self.designs.names, self.file)
+            self._check_entry()
         except ConfigError as error:
             raise self._refusal(error) from None
+
+    def _check_entry(self) -> None:
+        """Raises ConfigError for what its file's model does not check."""
 
     def _refusal(self, error: ConfigError) -> ConfigError:
         """The error, with how a value inside a section is written in Python where one stands in place of the section."""
@@ -110,10 +117,6 @@ class Choice:
                     return ConfigError(f'{error}; of one of them: **{{"{key}.{inner}": {plain_value(value)!r}}}')
         return error
 
-    def family(self, name: str, entry: Mapping[str, Any]) -> Self:
-        """A family of designs of this entry, called `name`: no blade or scene by itself. `entry`: keys of a family."""
-        return replace(self, name=name, changes={**self.changes, **entry}, base=self.base or self.name)
-
 
 @dataclass(frozen=True)
 class BladeChoice(Choice):
@@ -123,22 +126,22 @@ class BladeChoice(Choice):
     """
 
     kind: ClassVar[str] = "blade"
-    checked: ClassVar[str] = "settings"
 
     @cached_property
     def settings(self) -> BladeSettings:
-        """Shape and material of the blade, in SI units. Raises ConfigError."""
-        root = self.configuration.root
-        designs = blades_of_file(root, self.file, self.above)
-        if self.name not in designs.entries:
-            raise _unknown(self.kind, self.name, designs.entries, self.file)
-        return blade_settings(self.name, designs.entries, root, designs.document)
+        """Shape and material of the blade, which is no family, in SI units. Raises ConfigError."""
+        return blade_settings(self.name, self.designs.entries, self.configuration.root, self.designs.document)
+
+    def _check_entry(self) -> None:
+        if not self.is_family:
+            _ = self.settings
 
     def _copied(self, entry: Any, original: str) -> Any:
         if not isinstance(entry, Mapping) or "stacking_table" not in entry:
             return entry
         # the table has its row under the original name
-        varied = {key.split(".")[0] for key in (*self.changes, *self.changes.get("vary", {}))}
+        vary = self.changes.get("vary")
+        varied = {key.split(".")[0] for key in (*self.changes, *(vary if isinstance(vary, Mapping) else ()))}
         for key in (*SHARES, *SECTION_KEYS):
             if key in varied and key in entry:
                 has = "whose table has a share already" if key in SHARES else "which has a value of it already"
@@ -151,48 +154,45 @@ class BladeChoice(Choice):
 class SceneChoice(Choice):
     """A scene, the result of `r37.scene`: its `name`, and the `changes` (dotted key -> value) to its entry in scenes.yaml.
 
-    `base`: name of the entry, where the changed scene has another name. `results`: results of a run, in place of the entry's.
+    `base`: name of the entry, where the changed scene has another name.
     """
 
     kind: ClassVar[str] = "scene"
-    checked: ClassVar[str] = "entry"
-    results: tuple[str, ...] | None = None
-
-    @property
-    def _keys(self) -> Mapping[str, Any]:
-        return self.changes if self.results is None else {**self.changes, "results": list(self.results)}
 
     def _left_out(self, entry: Any) -> Any:
         # what the base has is not there any more, either
         has_base = isinstance(entry, Mapping) and {**entry, **self.changes}.get("base") is not None
         return None if has_base else Without.KEY
 
-    @cached_property
+    @property
     def entry(self) -> SceneEntry:
-        """The scene's keys, in the units of their names, or those of a family of scenes. Raises ConfigError."""
-        document, entries = checked_scenes(read_document(Path(self.file).parent, self.file), self.above)
-        designs = expanded_families(entries, self.configuration.root, document)
-        if self.name not in designs.names:
-            raise _unknown(self.kind, self.name, designs.names, document.name)
-        return designs.entries.get(self.name) or entries[self.name]
+        """Keys of the scene, which is no family, in the units of their names. Raises ConfigError."""
+        return self.designs.entries[self.name]
 
     @property
     def changes_clearance(self) -> bool:
         """True where the changes give the scene another clearance than its file does."""
-        if not self.changes:
+        if not self.changes or self.is_family:
             return False
         with contextlib.suppress(ConfigError):
-            original = _scenes_in(self.file).get(self.base or self.name)
+            original = scenes_of_file(self.configuration.root, self.file).entries.get(self.base or self.name)
             return original is not None and original.casing.cold_clearance != self.entry.casing.cold_clearance
         return False
 
 
 C = TypeVar("C", bound=Choice)
 
+_FILES: Mapping[str, Callable[[Path, str, Document | None], Designs[Any]]] = {"blade": blades_of_file, "scene": scenes_of_file}
+"""Readers of the files of both kinds."""
 
-@checked_call
+
+@stages()
 def blades(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
     """Names of the blades in blades.yaml, designs of families included.
+
+    Args:
+        file: A blades.yaml in place of the configuration's.
+        config: A config.yaml in place of the shipped one. It gives names, structure and levels.
 
     Returns:
         The names, in the order of the file.
@@ -208,9 +208,13 @@ def blades(*, file: Path | str | None = None, config: Path | str | None = None) 
     return list(blades_of_file(chosen.root, chosen.checked.blades_file).entries)
 
 
-@checked_call
+@stages()
 def scenes(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
     """Names of the scenes in scenes.yaml: what a blade may rub on.
+
+    Args:
+        file: A scenes.yaml in place of the configuration's.
+        config: A config.yaml in place of the shipped one. It gives names, structure and levels.
 
     Returns:
         The names, in the order of the file.
@@ -222,10 +226,10 @@ def scenes(*, file: Path | str | None = None, config: Path | str | None = None) 
         >>> r37.scenes()[:2]
         ['abradable', 'direct']
     """
-    return list(_scenes_in(read_configuration(config).changed_file("scenes_file", file).checked.scenes_file))
+    return _scenes_in(read_configuration(config).changed_file("scenes_file", file))
 
 
-@checked_call
+@stages()
 def blade(
     name_of_entry: str,
     /,
@@ -241,9 +245,12 @@ def blade(
     Args:
         name_of_entry: Name of the blade in the file.
         name: Name of the changed blade in results and figures. By default its changes name it.
+        file: A blades.yaml in place of the configuration's.
+        config: A config.yaml in place of the shipped one. It gives names, structure and levels.
         **changes: Values of keys of the entry, in the units of their names. A dot leads into a section, as in
             `**{"material.density_kg_m3": 4430.0}`. A law over the span may also be a dictionary, or a list of its rows.
-            None leaves a key out.
+            None leaves a key out. With `vary={"sweep_percent": [50, 100]}`, or with a DataFrame as `designs`, it is a
+            family of designs, for `r37.run`.
 
     Returns:
         The blade, for all calls that take one. Nothing is meshed or simulated yet.
@@ -263,7 +270,7 @@ def blade(
     return _chosen(BladeChoice, name_of_entry, name, changes, read_configuration(config).changed_file("blades_file", file))
 
 
-@checked_call
+@stages()
 def scene(
     name_of_entry: str,
     /,
@@ -278,7 +285,7 @@ def scene(
     Args:
         name_of_entry, name, file, config, **changes: As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the
             abradable lining out, also that of a `base`: the casing is bare. Scenes that have this one as their base stay as
-            they are.
+            they are. `vary={"casing.clearance_m": [4e-4, 7e-4]}` is a family of scenes.
 
     Returns:
         The scene, for all calls that take one.
@@ -296,11 +303,12 @@ def scene(
 def scenes_named(configuration: Configuration) -> list[str]:
     """Names of the scenes that a configuration runs. Raises ConfigError."""
     named = configuration.checked.scenes
-    return list(_scenes_in(configuration.checked.scenes_file) if named == "all" else named)
+    return _scenes_in(configuration) if named == "all" else list(named)
 
 
-def _scenes_in(file: str) -> dict[str, SceneEntry]:
-    return checked_scenes(read_document(Path(file).parent, file))[1]
+def _scenes_in(configuration: Configuration) -> list[str]:
+    """Names of the scenes and families of scenes in the file of a configuration. Raises ConfigError."""
+    return list(scenes_of_file(configuration.root, configuration.checked.scenes_file).document.content)
 
 
 def _chosen(kind: type[C], entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> C:

@@ -16,18 +16,22 @@ from r37core.results.regions import judged
 from r37studies.designs.table import compared_in
 
 from .run_results import RunResults
-from .stages import checked_call
+from .stages import stages
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@checked_call
+@stages()
 def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
     """Figure of the Campbell diagram and the dynamic clearance of one blade.
 
     Args:
         campbell: The result of `r37.campbell`.
+        title: Title in place of the names that the figure has by default.
+
+    Returns:
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For another dataset.
@@ -41,13 +45,17 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
     return _drawn("r37core.figures.campbell_diagram.draw_campbell", campbell, title or _label(campbell, "blade"))
 
 
-@checked_call
+@stages()
 def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, title: str | None = None) -> Figure:
     """Figure of the leading edge's rms and the stress over speed, from the median to the largest of the later revolutions.
 
     Args:
         response: The result of `r37.sweep`, or a part of the dataset rms of a run.
         campbell: The result of `r37.campbell`, to mark the crossings of 1B.
+        title: Title in place of the names that the figure has by default.
+
+    Returns:
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For other datasets.
@@ -69,22 +77,27 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
     return _drawn("r37core.figures.response_curves.draw_response", name, campbell, scenes, stress)
 
 
-@checked_call
+@stages()
 def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
     """Figure of a rotor: a map of its blades over speed, the worst stress, and growth and nodal diameters at the worst speed.
 
     Args:
-        rotor: The result of `r37.rotor`, or `rotor` of the results of a run.
+        rotor: `rotor(blade, scene)` of the results of a run.
+        title: Title in place of the names that the figure has by default.
+
+    Returns:
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For another dataset, and for that of several runs.
 
     Examples:
-        >>> rotor = r37.rotor("Ref", "abradable", [1550], rotor={"blades": 3}, fidelity="draft")
-        >>> r37.plot_rotor(rotor, "mine").get_suptitle()
+        >>> scene = r37.scene("abradable", name="three", rotor={"blades": 3}, results=["stress"])
+        >>> results = r37.run("Ref", scene, [1550], fidelity="draft")
+        >>> r37.plot_rotor(results.rotor("Ref", "three"), "mine").get_suptitle()
         'mine: a rotor of 3 blades'
     """
-    _check("rotor", rotor, "blade_rms", "r37.rotor")
+    _check("rotor", rotor, "blade_rms", "rotor(blade, scene) of r37.run")
     if "run" in rotor.dims:
         raise ConfigError("rotor: found several runs; allowed: one, as results.rotor(blade, scene) of r37.open_results has it")
     several = rotor if "speed" in rotor.dims else rotor.expand_dims("speed")
@@ -93,22 +106,27 @@ def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
     )
 
 
-@checked_call
+@stages()
 def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
     """Figure of motion, stress and wear in every revolution of run-ups of one blade in one scene.
 
     Args:
-        run_ups: The result of `r37.run_ups` or `r37.run_up`.
+        run_ups: The dataset run_ups of a run, or one run of it.
+        title: Title in place of the names that the figure has by default.
+
+    Returns:
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For another dataset, and for runs of several blades or scenes.
 
     Examples:
-        >>> run = r37.run_up("Ref", "abradable", from_rad_s=1540, to_rad_s=1560, revolutions=4, fidelity="draft")
-        >>> r37.plot_run_ups(run).get_suptitle()
+        >>> up = {"from_rad_s": 1540, "to_rad_s": 1560, "revolutions": 4}
+        >>> results = r37.run("Ref", "abradable", run_ups={"up": up}, fidelity="draft", targets="results/run_ups.nc")
+        >>> r37.plot_run_ups(results["run_ups"]).get_suptitle()
         'run-ups: Ref, abradable, leading edge'
     """
-    _check("run_ups", run_ups, "rate", "r37.run_ups")
+    _check("run_ups", run_ups, "rate", 'r37.run(..., run_ups=...)["run_ups"]')
     several = run_ups if "run" in run_ups.dims else run_ups.expand_dims("run")
     # a single run has its labels without the dimension
     labels = [name for name in ("blade", "scene", "run_up") if name in several.coords]
@@ -120,25 +138,29 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
     return _drawn("r37studies.run_ups.figures.draw_run_ups", several, title or f"{blade}, {scene}", blade=blade, scene=scene)
 
 
-@checked_call
+@stages()
 def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | None = None) -> Figure:
     """Figure of the band of the members, their probability of passing yield, and the effect of each number.
 
     Args:
-        results: The result of `r37.tolerances`, or the results of a run with tolerances.
+        results: The results of a run with tolerances.
         blade, scene: Names of the blade and the scene.
+        title: Title in place of the names that the figure has by default.
+
+    Returns:
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For results without tolerances, and for a blade and scene that have none.
 
     Examples:
-        >>> spread = {"casing.clearance_m": {"uniform_percent": 2}}
-        >>> results = r37.tolerances("Ref", "abradable", [1150], of_scenes=spread, members=2, fidelity="draft")
+        >>> spread = {"of_scenes": {"casing.clearance_m": {"uniform_percent": 2}}, "members": 2}
+        >>> results = r37.run("Ref", "abradable", [1150], tolerances=spread, fidelity="draft")
         >>> len(r37.plot_tolerances(results, "Ref", "abradable").axes) > 2
         True
     """
     if not isinstance(results, RunResults) or "tolerances" not in results:
-        raise ConfigError("results: found none of tolerances; allowed: what r37.tolerances gives")
+        raise ConfigError("results: found none of tolerances; allowed: those of r37.run(..., tolerances=...)")
     tolerances = results["tolerances"]
     if blade not in tolerances["blade"].values or scene not in tolerances["scene"].values:
         known = f"{', '.join(map(str, tolerances['blade'].values))} in {', '.join(map(str, tolerances['scene'].values))}"
@@ -147,24 +169,29 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
     return _drawn("r37studies.tolerances.figures.draw_tolerances", spread, response, title or f"{blade}, {scene}")
 
 
-@checked_call
+@stages()
 def plot_designs(results: RunResults, title: str | None = None, *, family: str | None = None) -> Figure:
     """Figure of a family of designs: robustness over the varied key, a map over two, else by the designs' names.
 
     Args:
-        results: The result of `r37.designs`, or the results of a run with families.
+        results: The results of a run with families.
+        title: Title in place of the names that the figure has by default.
         family: Family in place of the first one, as the column `family` of `tables["designs"]` has it.
+
+    Returns:
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For results without designs, and for a family that they do not have.
 
     Examples:
-        >>> results = r37.designs("S100", "abradable", [1150], vary={"sweep_percent": [50, 100]}, fidelity="draft")
+        >>> family = r37.blade("S100", name="Sweep", vary={"sweep_percent": [50, 100]})
+        >>> results = r37.run(family, "abradable", [1150], fidelity="draft")
         >>> r37.plot_designs(results).get_suptitle()
-        'family Design: 2 designs over sweep_percent'
+        'family Sweep: 2 designs over sweep_percent'
     """
     if not isinstance(results, RunResults) or "designs" not in results.tables:
-        raise ConfigError("results: found none of designs; allowed: what r37.designs gives")
+        raise ConfigError("results: found none of designs; allowed: those of a run with a family, r37.blade(..., vary=...)")
     table = results.tables["designs"]
     families = compared_in(table)
     name = next(iter(families)) if family is None else family

@@ -12,12 +12,12 @@ from r37studies.measured.rub_tests.rig_table import read_rub_test
 
 from .arguments import number
 from .call_configuration import read_configuration
-from .call_settings import chosen_scene
+from .call_settings import chosen
 from .choices import SceneChoice
-from .stages import checked_call
+from .stages import stages
 
 
-@checked_call
+@stages()
 def lining_from_rub_test(
     table: Path | str | Mapping[str, Any],
     *,
@@ -35,6 +35,7 @@ def lining_from_rub_test(
         width_m, thickness_m: Width of the tool across the rub, thickness of the lining, where all points have the same (m).
         contact_length_m: Where known, moduli are fitted in place of a contact length for those of the scene.
         scene: Scene with the moduli that the contact length goes with.
+        config: A config.yaml in place of the shipped one. It gives names, structure and levels.
 
     Returns:
         Best values, ranges, and `scene`, keys for scenes.yaml.
@@ -53,7 +54,7 @@ def lining_from_rub_test(
     for name, value in lengths.items():
         if not 0.0 < value <= 1.0:
             raise ConfigError(f"{name}_m: found {value}; allowed: more than 0, at most 1")
-    lining = chosen_scene(scene, read_configuration(config)).entry.scene().lining
+    lining = chosen(SceneChoice, scene, read_configuration(config)).entry.scene().lining
     if lining is None or lining.published:
         raise ConfigError("scene: found one without a contact length of its lining; allowed: such as material_abradable")
     contact_length = lengths.pop("contact_length", None)

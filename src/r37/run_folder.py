@@ -23,7 +23,7 @@ _CONFIG = "config/config.yaml"
 _HEADER = "# Written by a call of r37; `snakemake tables --cores 2` in this folder runs the same.\n"
 
 
-def run_folder(folder: Path | str) -> Path:
+def run_folder(folder: Any) -> Path:
     """The folder of a call, absolute: new, empty, or of an earlier call. Raises ConfigError for others."""
     if not isinstance(folder, str | os.PathLike):
         raise ConfigError(f"folder: found {folder!r}; allowed: a folder that is new, empty, or of an earlier call")

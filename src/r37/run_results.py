@@ -17,7 +17,7 @@ from r37core.config.messages import did_you_mean
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
-from .stages import checked_call
+from .stages import stages
 
 Content = TypeVar("Content")
 
@@ -92,7 +92,7 @@ class RunResults(FilesByName[xr.Dataset]):
         return read_dataset(self.folder / blade / scene / "signals.nc")
 
     def rotor(self, blade: str, scene: str) -> xr.Dataset:
-        """rotor.nc of one blade in one scene, as `r37.rotor` gives it. Raises InputFileError where it cannot be read."""
+        """rotor.nc of one blade in one scene. Raises InputFileError where it cannot be read."""
         return read_dataset(self.folder / blade / scene / "rotor.nc")
 
     def best_values(self) -> dict[str, float]:
@@ -132,7 +132,7 @@ def _table(file: Path) -> pd.DataFrame:
     return read_ranking(file) if file.stem == "ranking" else read_table(file)
 
 
-@checked_call
+@stages()
 def open_results(folder: Path | str) -> RunResults:
     """Results of a finished run of the workflow.
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Unpack
 
 import xarray as xr
 from numpy.typing import ArrayLike
@@ -18,35 +18,30 @@ from r37core.results.closing import remarks_on_contact, remarks_on_limits
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 
 from .arguments import Speeds, speed_key, speed_keys
-from .calculation import Calculation, structure_file
-from .call_settings import Call, OneOptions, call_of, tell
+from .calculation import response_file, structure_file
+from .call_settings import Call, call_of, tell
 from .choices import BladeChoice, SceneChoice
 from .jobs import check_cores
-from .stages import checked_call
+from .stages import stages
 
 
-class SimulateOptions(OneOptions, total=False):
-    """Options of `simulate`."""
-
-    speed_rpm: float | None
-    initial_displacement: ArrayLike | None
-    initial_velocity: ArrayLike | None
-
-
-class SpeedsOptions(OneOptions, total=False):
-    """Options of `sweep`."""
-
-    speeds_rpm: Speeds | None
-    cores: int
-
-
-@checked_call
+@stages()
 def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: Path | str | None = None) -> xr.Dataset:
     """Campbell diagram of a blade, as in campbell.nc of a run.
+
+    Args:
+        blade: A name, or the result of `r37.blade`.
+        fidelity: An accuracy level in place of the configuration's.
+        config: A config.yaml in place of the shipped one. It gives names, structure and levels.
 
     Returns:
         `frequency` (Hz), shape (mode, speed). `crossing_speed` (rad/s), shape (mode, engine_order), NaN without a crossing.
         `dynamic_clearance` (m), shape (mode, tangential_displacement). `mode`: 1B, 1T, 2B, then 4, 5, ... by frequency.
+
+    Raises:
+        ConfigError: For bad input.
+        ValueError: For an impossible shape, mesh, model or time step.
+        BucklingError: For a blade that its load buckles.
 
     Examples:
         >>> diagram = r37.campbell("Ref", fidelity="draft")
@@ -54,11 +49,11 @@ def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: P
         >>> 1600 < crossing < 1750
         True
     """
-    call = call_of("r37.campbell", [blade], [], {}, {"fidelity": fidelity, "config": config})
+    call = call_of("r37.campbell", [blade], [], {}, config=config, fidelity=fidelity)
     return _structure_dataset(call, "campbell_of_blade")
 
 
-@checked_call
+@stages()
 def reduced_model(
     blade: BladeChoice | str,
     scene: SceneChoice | str | None = None,
@@ -69,11 +64,19 @@ def reduced_model(
     """Reduced model of a blade, as in rom_*.nc of a run.
 
     Args:
+        blade: A name, or the result of `r37.blade`.
         scene: Scene whose tip line has the contact nodes. By default that of structure.boundary counts.
+        fidelity: An accuracy level in place of the configuration's.
+        config: A config.yaml in place of the shipped one. It gives names, structure and levels.
 
     Returns:
         `mass` (kg), `stiffness` (N/m) and `geometric_stiffness` (N s²/(m rad²)), each of shape (row, column). The rows are
         the reduced coordinates: displacements of the contact nodes, then modes. Others map them to the nodes.
+
+    Raises:
+        ConfigError: For bad input.
+        ValueError: For an impossible shape, mesh, model or time step.
+        BucklingError: For a blade that its load buckles.
 
     Examples:
         >>> model = r37.reduced_model("Ref", fidelity="draft")
@@ -81,22 +84,37 @@ def reduced_model(
         True
     """
     scenes = [] if scene is None else [scene]
-    call = call_of("r37.reduced_model", [blade], scenes, {}, {"fidelity": fidelity, "config": config})
+    call = call_of("r37.reduced_model", [blade], scenes, {}, config=config, fidelity=fidelity)
     tip_line = call.settings.scenes[call.scenes[0].name].tip_line if call.scenes else None
     return _structure_dataset(call, "reduced_model", tip_line)
 
 
-@checked_call
+@stages()
 def simulate(
-    blade: BladeChoice | str, scene: SceneChoice | str, speed: float | None = None, **options: Unpack[SimulateOptions]
+    blade: BladeChoice | str,
+    scene: SceneChoice | str,
+    speed: float | None = None,
+    *,
+    speed_rpm: float | None = None,
+    initial_displacement: ArrayLike | None = None,
+    initial_velocity: ArrayLike | None = None,
+    fidelity: str | None = None,
+    results: Sequence[str] | None = None,
+    config: Path | str | None = None,
 ) -> xr.Dataset:
     """Response of a blade in a scene at one speed: that of `r37.sweep` without the dimension speed.
 
     Args:
+        blade: A name, or the result of `r37.blade`.
+        scene: A name, or the result of `r37.scene`.
         speed: Angular speed (rad/s).
+        speed_rpm: The same in revolutions per minute, in place of `speed`.
         initial_displacement, initial_velocity: State of the blade at the start (velocity per s), in the coordinates of
             `r37.reduced_model`, shape (coordinates,). By default it starts at rest. Parts in modes that are not stepped are
             left out; the dataset has their share of the energy, and the attribute `initial_state`.
+        fidelity: An accuracy level in place of the configuration's.
+        results: Results to compute, in place of the scene's list: `["stress", "wear"]`.
+        config: A config.yaml in place of the shipped one. It gives names, structure and levels.
 
     Returns:
         Variables of response.nc: `rms_normal` (m), shape (tip_point,); `max_von_mises_ever` (Pa), shape (region,); `status` (0:
@@ -112,39 +130,64 @@ def simulate(
         >>> response.rms_normal.sel(tip_point="leading_edge").item() > 0.0  # m
         True
     """
-    call = call_of("r37.simulate", [blade], [scene], speed_key(speed, options.get("speed_rpm")), options)
+    keys = speed_key(speed, speed_rpm)
+    call = call_of("r37.simulate", [blade], [scene], keys, config=config, fidelity=fidelity, results=results)
     try:
         _ = call.settings
     except ConfigError as error:
         # the one speed stands in a list of them
         raise ConfigError(re.sub(r"\bspeeds(_rpm)?\.0\b", r"speed\1", str(error))) from None
     try:
-        motion = InitialMotion.from_arrays(options.get("initial_displacement"), options.get("initial_velocity"))
+        motion = InitialMotion.from_arrays(initial_displacement, initial_velocity)
         response = _response(call, 1, motion)
     except InitialMotionError as error:
         raise ConfigError(str(error)) from None
     return response.isel(speed=0).assign_attrs({} if motion is None else motion.attributes)
 
 
-@checked_call
+@stages()
 def sweep(
-    blade: BladeChoice | str, scene: SceneChoice | str, speeds: Speeds | None = None, **options: Unpack[SpeedsOptions]
+    blade: BladeChoice | str,
+    scene: SceneChoice | str,
+    speeds: Speeds | None = None,
+    *,
+    speeds_rpm: Speeds | None = None,
+    cores: int = 1,
+    fidelity: str | None = None,
+    results: Sequence[str] | None = None,
+    config: Path | str | None = None,
 ) -> xr.Dataset:
     """Response of a blade in a scene at several speeds, as in response.nc of a run.
+
+    Args:
+        blade: A name, or the result of `r37.blade`.
+        scene: A name, or the result of `r37.scene`.
+        speeds: Angular speeds (rad/s), or ranges `{"start": 750, "stop": 2000, "step": 20}`. With `"refine_to": 1` the range is
+            sampled adaptively, down to intervals of that length.
+        speeds_rpm: The same in revolutions per minute, in place of `speeds`.
+        cores: Number of jobs that run at once. The numbers do not depend on it.
+        fidelity: An accuracy level in place of the configuration's.
+        results: Results to compute, in place of the scene's list: `["stress", "wear"]`.
+        config: A config.yaml in place of the shipped one. It gives names, structure and levels.
 
     Returns:
         The variables of `r37.simulate` by ascending `speed`, with the numbers of the workflow: `rms_normal` (m), shape (speed,
         tip_point); `max_von_mises_ever` (Pa), shape (speed, region); `status`, shape (speed,); `amplitude` (m), shape (speed,
         engine_order); and others.
 
+    Raises:
+        ConfigError: For bad input.
+        ValueError: For an impossible shape, mesh, model or time step.
+        BucklingError: For a blade that its load buckles.
+
     Examples:
         >>> response = r37.sweep("Ref", "abradable", [1550, 1150], fidelity="draft", results=["stress"])
         >>> response.speed.values
         array([1150., 1550.])
     """
-    check_cores(cores := options.get("cores", 1))
-    keys = speed_keys(speeds, options.get("speeds_rpm"))
-    return _response(call_of("r37.sweep", [blade], [scene], keys, options), cores)
+    check_cores(cores)
+    keys = speed_keys(speeds, speeds_rpm)
+    return _response(call_of("r37.sweep", [blade], [scene], keys, config=config, fidelity=fidelity, results=results), cores)
 
 
 def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> xr.Dataset:
@@ -161,7 +204,7 @@ def _response(call: Call, cores: int, motion: InitialMotion | None = None) -> xr
     call.tell_remarks()
     (blade,), (scene,) = call.blades, call.scenes
     with scratch_folder() as folder:
-        response = read_dataset(Calculation(call.settings, folder, cores).response(motion))
+        response = read_dataset(response_file(call.settings, folder, cores, motion))
     name = f"{blade.label} in {scene.label}"
     # free flight is what a start in motion may be for
     if motion is None:

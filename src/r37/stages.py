@@ -1,4 +1,4 @@
-"""Progress of a call: a line for each stage, a bar for many simulations; and the check of its arguments.
+"""Progress of a call: a line for each stage, a bar for many simulations.
 
 The lines go to the logger `r37` of the standard library. Where nobody listens to it and a person watches, on a terminal or in a
 notebook, they are written there, and bars beside them. `logging.getLogger("r37").setLevel("WARNING")` silences both.
@@ -6,18 +6,14 @@ notebook, they are written there, and bars beside them. `logging.getLogger("r37"
 
 from __future__ import annotations
 
-import inspect
 import logging
 import sys
 import warnings
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
-from functools import wraps
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from r37core.base.process_wide import ProcessWide
-
-from .docstrings import complete_docstring
 
 if TYPE_CHECKING:
     from r37core.config import Settings
@@ -54,7 +50,8 @@ def _written() -> Iterator[None]:
 
 
 stages = ProcessWide(_written)
-"""While `stages()` lasts, lines of the logger are written where a person watches and nobody else takes them."""
+"""While `stages()` lasts, or a call with the decorator `@stages()`, lines of the logger are written where a person watches and
+nobody else takes them."""
 
 
 def bar(items: Collection[T], what: str, unit: str) -> Iterable[T]:
@@ -79,44 +76,3 @@ def simulations_in_words(settings: Settings, blade: str, scene: str, number: str
     """The line of a stage that simulates."""
     plural = "" if number == "1" else "s"
     return f"{blade} in {scene}: {number} simulation{plural}, level {settings.fidelity_name}"
-
-
-Arguments = ParamSpec("Arguments")
-Result = TypeVar("Result")
-
-
-def arguments_of(call: Callable[..., object]) -> list[str] | None:
-    """Names of what a call takes by name, those of its `**options: Unpack[...]` included; None where it takes any."""
-    names: list[str] = []
-    for name, parameter in inspect.signature(call).parameters.items():
-        if parameter.kind is parameter.VAR_KEYWORD:
-            options = get_args(eval(parameter.annotation, call.__globals__))
-            if not options:
-                return None
-            names += options[0].__annotations__
-        elif parameter.kind is not parameter.POSITIONAL_ONLY:
-            names.append(name)
-    return names
-
-
-def checked_call_of(section: Any) -> Callable[[Callable[Arguments, Result]], Callable[Arguments, Result]]:
-    """checked_call of a call that takes keys of a `section` of config.yaml, whose declarations describe them."""
-    return lambda call: checked_call(call, section)
-
-
-def checked_call(call: Callable[Arguments, Result], section: Any = None) -> Callable[Arguments, Result]:
-    """The call, with its stages told, a complete docstring, and a TypeError for an unknown keyword argument that lists all."""
-    named = arguments_of(call) or []
-
-    @wraps(call)
-    def checked(*arguments: Arguments.args, **keywords: Arguments.kwargs) -> Result:
-        for name in keywords.keys() - set(named) if named else ():
-            from r37core.config.messages import did_you_mean
-
-            allowed = f"{', '.join(named)}{did_you_mean(name, named)}"
-            raise TypeError(f"r37.{call.__name__}: found the argument {name}; allowed: {allowed}")
-        with stages():
-            return call(*arguments, **keywords)
-
-    checked.__doc__ = complete_docstring(call, named or inspect.signature(call).parameters, section)
-    return checked

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from r37core.config import ConfigError
 
-from .stages import checked_call
+from .stages import stages
 
 _PACKAGE = Path(__file__).parent
 
@@ -17,7 +17,7 @@ SNAKEFILE = (_PACKAGE / "Snakefile").resolve()
 """Path of the workflow's Snakefile, for `module r37: snakefile: SNAKEFILE` in a workflow of your own."""
 
 
-@checked_call
+@stages()
 def init(folder: Path | str) -> Path:
     """Folder for a study that the workflow runs: the shipped configuration, a Snakefile and a profile.
 

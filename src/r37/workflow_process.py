@@ -165,9 +165,9 @@ class _Report:
 
 
 def snakemake_targets(targets: Any) -> list[str]:
-    """Names of rules, or files, as Snakemake takes them, those of the results with their folder. Raises ConfigError."""
+    """Names of rules, or files, as Snakemake takes them. Raises ConfigError."""
     several = [targets] if isinstance(targets, str) else targets
     named = isinstance(several, Sequence) and all(isinstance(name, str) and name and name[0] != "-" for name in several)
     if not (several and named):
         raise ConfigError(f'targets: found {targets!r}; allowed: names of rules or files, as in targets=["tables", "exports"]')
-    return [name.replace("<results>", "results") for name in several]
+    return [*several]

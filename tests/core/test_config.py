@@ -191,7 +191,7 @@ IMPORTED = {
     "import snakemake_executor_plugin_warm": {"numpy", "yaml"},
     "import r37core.base.plain": {"numpy", "pydantic", "yaml"},
     # a word of the command that computes nothing
-    "import r37.command, r37.docstrings": {"numpy", "pydantic", "scipy", "xarray"},
+    "import r37.command": {"numpy", "pydantic", "scipy", "xarray"},
     # it takes half a second at every start of Snakemake, and a plan builds no blade
     "import r37core.config, r37core.plans.sweep_plan": {"scipy.optimize", "scipy.interpolate"},
 }

@@ -14,7 +14,7 @@ from stubbed_runs import copy_stubbed
 from workflow_runs import overlay, planned_outputs, snakemake
 
 import r37
-from r37 import studies
+from r37.call_settings import call_of
 from r37core.base.plain import to_plain
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, command_line_document, plain
@@ -503,15 +503,11 @@ def test_each_family_has_a_map_in_the_explorer():
     assert families["Other"].scenes == tuple(other["scene"])
 
 
-def test_designs_of_scenes_from_python(monkeypatch):
-    """Each scene is a family of its own; without keys of the blade that is as it is."""
-    asked = []
-    monkeypatch.setattr(studies, "run_of", lambda call, options: asked.append((call.blades, call.scenes)))
-    r37.designs("Ref", ["abradable", "direct"], [1150], vary={"scene.casing.clearance_m": [3e-4, 4e-4]})
-    r37.designs("S100", "direct", [1150], vary={"scene.damping_ratio": [0.001], "sweep_percent": [50, 100]})
-    ((blades, scenes), (families, others)) = asked
-    assert [blade.name for blade in blades] == ["Ref"]
-    assert [scene.name for scene in scenes] == ["abradable-varied", "direct-varied"]
-    assert scenes[1].changes["vary"] == {"casing.clearance_m": [3e-4, 4e-4]}
-    assert (families[0].name, families[0].changes["vary"]) == ("Design", {"sweep_percent": [50, 100]})
-    assert others[0].base == "direct"
+def test_families_from_python(config_copy):
+    """Of a blade and of a scene, which a run takes as it takes single ones."""
+    config = config_copy / "config/config.yaml"
+    scene = r37.scene("direct", config=config, name="Rooms", vary={"casing.clearance_m": [3e-4, 4e-4]})
+    blade = r37.blade("S100", config=config, name="Sweep", vary={"sweep_percent": [50, 100]})
+    call = call_of("r37.run", [blade], [scene], {"speeds": [1150]}, config=config, fidelity=None, whole=True)
+    assert call.settings.blade_names == ["Sweep_50", "Sweep_100"]
+    assert call.settings.scene_names == ["Rooms_0p0003", "Rooms_0p0004"]

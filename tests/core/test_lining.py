@@ -222,7 +222,7 @@ def test_shipped_runs_hold_the_height(root):
     ],
 )
 def test_a_call_that_changes_the_clearance_is_warned(root, monkeypatch, changes, said):
-    monkeypatch.setattr("r37.simulations.Calculation", None)
+    monkeypatch.setattr("r37.simulations.response_file", None)
     scene = r37.scene("direct", config=root / "config/config.yaml", **changes)
     with warnings.catch_warnings(record=True) as caught, pytest.raises(TypeError):
         warnings.simplefilter("always")

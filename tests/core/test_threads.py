@@ -55,7 +55,6 @@ adaptive = {"start": 1100, "stop": 1200, "step": 50, "refine_to": 25}
 calls = {
     "campbell": lambda: r37.campbell("Ref", config=config),
     "sweep": lambda: r37.sweep("Ref", "abradable", adaptive, config=config, cores=2),
-    "run_up": lambda: r37.run_up("Ref", "abradable", from_rad_s=1150, to_rad_s=1160, revolutions=5, config=config),
 }
 for name, call in calls.items():
     with ThreadPoolExecutor(2) as threads:

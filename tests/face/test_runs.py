@@ -94,7 +94,7 @@ def test_a_run_that_was_ended_leaves_no_process_and_goes_on_with_the_same_bytes(
 def test_a_failed_job_raises_what_it_raised(config, tmp_path):
     thick = r37.blade("Ref", config=config, thickness_percent=1000, name="Thick")
     with pytest.raises(BladeShapeError, match="blade Thick: span 0%: no pressure-side arc") as raised:
-        r37.compare([thick, "Ref"], "abradable", [1150], config=config, folder=tmp_path / "thick")
+        r37.run([thick, "Ref"], "abradable", [1150], config=config, folder=tmp_path / "thick")
     assert "details in logs/Thick/geometry.log" in raised.value.__notes__[0]
 
 
@@ -152,7 +152,8 @@ def test_a_folder_says_what_the_call_said(config, written, tmp_path):
     assert targets == ["tables"] and settings.config.interactions.prominence == 0.2
     assert settings.blades["Swept"] == swept.settings and list(settings.scenes) == ["smooth"]
     assert settings.scene_designs.entries["smooth"] == smooth.entry
-    r37.designs("S100", "abradable", [1150], vary=table, config=config, folder=tmp_path / "b")
+    family = r37.blade("S100", config=config, designs=table, name="Shares")
+    r37.run(family, "abradable", [1150], config=config, folder=tmp_path / "b")
     assert written[-1][0].blade_names == ["Near", "Far"]
     for name, share in (("Near", 50), ("Far", 80)):
         expected = r37.blade("S100", config=config, sweep_percent=share).settings.definition.stacking
@@ -181,7 +182,7 @@ def test_the_configuration_counts_unless_an_argument_replaces_it(config, written
     assert {settings.results_of(*pair) for settings, _ in written[-1:] for pair in settings.speed_plans} == {("stress",)}
     # histories of speeds that are not run are left out, as of a single call
     scene = r37.scene("abradable", config=config, stress_history_speeds_rad_s=[1150, 1900], name="history")
-    r37.compare("Ref", scene, [1000, 1150], config=config, folder=tmp_path / "c")
+    r37.run("Ref", scene, [1000, 1150], config=config, folder=tmp_path / "c")
     assert written[-1][0].scenes["history"].stress_history_speeds == (1150.0,)
 
 

@@ -1,4 +1,4 @@
-"""The call of a search: it gives what the workflow gives, a design that cannot be built is a result, and bad input is told."""
+"""A search from Python: it gives what the workflow gives, a design that cannot be built is a result, and bad input is told."""
 
 import re
 import sys
@@ -16,6 +16,7 @@ from r37core.results.regions import judged
 
 SPEEDS = [1150, 1550]
 SEARCH = {
+    "blade": "Ref",
     "variables": {"stagger_deg.tip": [-2, 2], "chordwise_sweep_deg": [0, 20]},
     "objectives": {"lined": {"measure": "largest_rms_m", "scenes": ["abradable"]}},
     "constraints": {"first": {"measure": "frequency_hz", "mode": "1B", "at_least_percent": 60}},
@@ -33,7 +34,7 @@ pytestmark = pytest.mark.usefixtures("warm_calls")
 def searched(small_sweep, tmp_path_factory):
     """The small sweep with a search of the workflow that was killed between its designs and has gone on."""
     folder = copy_finished(small_sweep, tmp_path_factory.mktemp("searched") / "sweep")
-    changes = {"blades": ["Ref"], "scenes": ["abradable"], "speeds": SPEEDS, "search": {"blade": "Ref", **SEARCH}}
+    changes = {"blades": ["Ref"], "scenes": ["abradable"], "speeds": SPEEDS, "search": SEARCH}
     overlay(folder, "config.yaml", yaml.safe_dump(changes, sort_keys=False))
 
     def designs():
@@ -54,7 +55,7 @@ def test_a_search_is_that_of_the_workflow_and_its_best_design_that_blade(searche
     assert "search_designs" in planned_outputs(searched, *FILES, "--config", "search={designs: 4}")
     results = r37.open_results(searched / "results")
     with caplog.at_level("INFO", "r37"):
-        again = r37.search("Ref", "abradable", SPEEDS, **SEARCH, config=config)
+        again = r37.run("Ref", "abradable", SPEEDS, search=SEARCH, config=config)
     xr.testing.assert_identical(again["search"], results["search"])
     pd.testing.assert_frame_equal(again.tables["search"], results.tables["search"])
     told = [message for message in caplog.messages if message.startswith("search: ")]
@@ -72,7 +73,7 @@ def test_a_search_is_that_of_the_workflow_and_its_best_design_that_blade(searche
 def test_designs_that_cannot_be_built_are_results(config, caplog):
     turned = {**SEARCH, "variables": {"thickness_percent": [900, 1000]}}
     with caplog.at_level("INFO", "r37"):
-        results = r37.search("Ref", "abradable", SPEEDS, **turned, method="quasi_random", config=config)
+        results = r37.run("Ref", "abradable", SPEEDS, search={**turned, "method": "quasi_random"}, config=config)
     refused = results.tables["search"].refused.tolist()[1:]
     assert len(refused) == 3 and all("no pressure-side arc" in reason for reason in refused)
     assert np.isfinite(results["search"].objective_value.sel(design="start")).all()
@@ -86,9 +87,9 @@ def test_designs_that_cannot_be_built_are_results(config, caplog):
 def test_a_design_of_a_scene_is_that_scene(config):
     """The best design and a sweep in its scene give the same to the last bit, and another number than the start."""
     lined = {"lined": {"measure": "largest_rms_m", "scenes": ["abradable"]}}
-    variables = {"scene.lining.thickness_m": [2e-5, 2e-4]}
-    asked = {"objectives": lined, "designs": 3, "first": 2, "batch": 1, "config": config}
-    results = r37.search("Ref", "abradable", SPEEDS, variables=variables, **asked)
+    search = {"blade": "Ref", "variables": {"scene.lining.thickness_m": [2e-5, 2e-4]}, "objectives": lined}
+    search |= {"designs": 3, "first": 2, "batch": 1}
+    results = r37.run("Ref", "abradable", SPEEDS, search=search, config=config)
     assert results.best_values() == {}
     scene = r37.scene("abradable", name="thin", config=config, **results.best_scene_values())
     search = results["search"]
@@ -111,23 +112,18 @@ def test_a_design_of_a_scene_is_that_scene(config):
             {"variables": {"casing.clearance_m": [1, 2]}},
             "unknown key casing.clearance_m; .* in a search as scene.casing.clearance_m",
         ),
-        ({"variables": {"stagger_deg.tip": [2, -2]}}, "r37.search: search.variables.stagger_deg.tip: found .*a lower and a h"),
-        ({"objectives": {"lined": {"scenes": ["direct"]}}}, "r37.search: search.objectives.lined.scenes: found 'direct'"),
-        ({"designs": 1, "first": 1}, "r37.search: search.designs: found 1; allowed"),
-        ({"blade": r37.blade("Ref", chordwise_sweep_deg=5)}, 'differ, as of r37.blade."Ref", ..., name="Mine"'),
-        ({"cores": 0}, "cores: found 0"),
+        ({"variables": {"stagger_deg.tip": [2, -2]}}, "r37.run: search.variables.stagger_deg.tip: found .*a lower and a h"),
+        ({"objectives": {"lined": {"scenes": ["direct"]}}}, "r37.run: search.objectives.lined.scenes: found 'direct'"),
+        ({"designs": 1, "first": 1}, "r37.run: search.designs: found 1; allowed"),
     ],
 )
 def test_what_cannot_be_searched_is_told(config, changes, message):
-    arguments = {"blade": "Ref", "scenes": "abradable", "speeds": SPEEDS, "config": config, **SEARCH, **changes}
     with pytest.raises(r37.ConfigError, match=message):
-        r37.search(**arguments)
+        r37.run("Ref", "abradable", SPEEDS, search={**SEARCH, **changes}, config=config)
 
 
 def test_the_missing_package_is_named_in_one_line(config, monkeypatch):
     monkeypatch.setitem(sys.modules, "sklearn.gaussian_process", None)
     with pytest.raises(r37.ConfigError) as refused:
-        r37.search("Ref", "abradable", SPEEDS, **SEARCH, config=config)
-    assert re.fullmatch(
-        r"r37.search: search: .* extra package scikit-learn: pip install -e '\.\[search\]' .*", str(refused.value)
-    )
+        r37.run("Ref", "abradable", SPEEDS, search=SEARCH, config=config)
+    assert re.fullmatch(r"r37.run: search: .* extra package scikit-learn: pip install -e '\.\[search\]' .*", str(refused.value))

@@ -340,7 +340,9 @@ def test_the_folder_of_a_call_finds_sections_and_meridians(tmp_path):
     (own / "shroud.curve").write_text("0.0 0.449 -0.1\n0.0 0.449 0.1\n")
     ends = {"hub": "sections", "tip": "shroud.curve"}
     (own / "blades.yaml").write_text(yaml.safe_dump({"Fan": {"sections": "fan.csv", **ENTRY, **ends}}))
-    call = call_of("r37.run", [r37.blade("Fan", file=own / "blades.yaml")], ["direct"], {"speeds": [500]}, {})
+    call = call_of(
+        "r37.run", [r37.blade("Fan", file=own / "blades.yaml")], ["direct"], {"speeds": [500]}, config=None, fidelity=None
+    )
     write_run(call, folder)
     (entry,) = (entry for name, entry in yaml.safe_load((folder / "config/blades.yaml").read_text()).items() if name == "Fan")
     assert (entry["sections"], entry["tip"]) == (str(own / "fan.csv"), str(own / "shroud.curve")) and entry["hub"] == "sections"

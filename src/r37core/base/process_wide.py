@@ -15,7 +15,7 @@ def one_thread() -> AbstractContextManager[object]:
 
 
 class ProcessWide:
-    """The context that `make` gives, entered once for all threads that are within; to be called in a `with`."""
+    """The context that `make` gives, entered once for all threads that are within; called in a `with`, or as a decorator."""
 
     def __init__(self, make: Callable[[], AbstractContextManager[object]]):
         self._make, self._lock, self._within, self._stack = make, threading.Lock(), 0, ExitStack()

@@ -74,7 +74,7 @@ class Reader:
         files = [self._file(document, key) for key in ("blades_file", "fidelity_file", "scenes_file")]
         designs = refusals.of(blades_of_file, root, files[0], blades_above)
         levels = refusals.of(_levels, root, files[1])
-        scenes = refusals.of(_scenes, root, files[2], scenes_above)
+        scenes = refusals.of(scenes_of_file, root, files[2], scenes_above)
         refusals.tell()
         assert checked and designs and levels and scenes
         documents = Documents(document, designs.document, levels[0], scenes.document)
@@ -110,7 +110,8 @@ def blades_of_file(root: Path, name: str, above: Document | None = None) -> Desi
     return expanded_families(document.check(blades_model()).root, root, document)
 
 
-def _scenes(root: Path, name: str, above: Document | None) -> Designs[SceneEntry]:
+def scenes_of_file(root: Path, name: str, above: Document | None = None) -> Designs[SceneEntry]:
+    """Scenes of the file `name`, whose name starts from the folder `root`, with changes `above`. Raises ConfigError."""
     document, entries = checked_scenes(read_document(root, name), above)
     return expanded_families(entries, root, document)
 
