@@ -8,7 +8,7 @@ from typing import Any
 from r37core.base.io import Named
 from r37core.config import ConfigError, Settings
 from r37core.machine_code.kept import named_folder, writable_folder
-from r37core.plans.provenance import Provenance
+from r37core.plans.sweep_plan import Sweep
 from r37core.sweep.blade_sweep import CAMPBELL, blade_sweep, shared_speeds
 from r37core.sweep.driver import SIMULATIONS, Driver
 from r37core.sweep.recipe import LOGGER, recipes, structure_attributes
@@ -38,7 +38,7 @@ def response_file(settings: Settings, folder: Path, cores: int, motion: InitialM
         (campbell,) = parallel_results([partial(sweep.file, CAMPBELL, cache_folder(), attributes)], 1)
     name = f"{blade}/{scene}"
     driver = Driver(folder, cache_folder(), attributes, run_all, motion)
-    return driver.run({name: sweep}, speeds, campbell, {name: str(Provenance(settings).sweep(run))})[name]
+    return driver.run({name: sweep}, speeds, campbell, {name: str(Sweep(settings).provenance(run))})[name]
 
 
 def structure_file(settings: Settings, blade: str, stage: str, tip_line: str | None = None) -> Path:

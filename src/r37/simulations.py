@@ -13,7 +13,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.base.io import FILE_ATTRIBUTES, Named, scratch_folder
 from r37core.config import ConfigError
 from r37core.config.remarks import remarks_on_blades
-from r37core.plans.provenance import Provenance
+from r37core.plans.sweep_plan import Sweep
 from r37core.results.closing import remarks_on_contact, remarks_on_limits
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 
@@ -195,7 +195,7 @@ def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> x
     settings, (blade,) = call.settings, call.blades
     tell(remarks_on_blades(settings))
     file = structure_file(settings, blade.name, stage, tip_line)
-    made = Provenance(settings).structure(Named(blade=blade.name))
+    made = Sweep(settings).structure_provenance(Named(blade=blade.name))
     return read_dataset(file).assign_attrs(FILE_ATTRIBUTES | dict(made) | blade.told)
 
 

@@ -16,9 +16,8 @@ from r37core.base.io import InputFileError
 from r37core.config import ConfigError, Settings
 from r37core.console.caller import CALLER
 from r37core.console.failures import error_of
-from r37core.plans.provenance import Provenance
 from r37core.plans.stages import structure_stages
-from r37core.plans.structure_plan import Structure
+from r37core.plans.sweep_plan import Sweep
 
 from .stages import LOGGER, job_bar, simulations_in_words
 
@@ -108,7 +107,7 @@ class _Report:
 
     def __init__(self, settings: Settings):
         self._settings = settings
-        self._stages = structure_stages(Structure(settings), Provenance(settings))
+        self._stages = structure_stages(Sweep(settings))
         self._told: set[tuple[str, ...]] = set()
         self._failures: list[dict[str, str]] = []
         self._messages: list[str] = []

@@ -14,7 +14,7 @@ GEOMETRIES = {"section_point": "r37imports.sections.section_blade.section_blade"
 """Variable of geometry.nc -> function that reads the blade from its dataset."""
 
 STAGES = {"imports": "r37imports.stages.import_stages"}
-"""Function of a Structure and a Provenance, which gives further stages."""
+"""Function of a Structure, which gives further stages."""
 
 RULES = {"imports": "imports/blades.smk"}
 """File in workflow/rules."""

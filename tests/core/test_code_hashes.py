@@ -15,9 +15,7 @@ from r37core.base.packages import PACKAGES
 from r37core.machine_code import kept
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint
-from r37core.plans.provenance import Provenance
 from r37core.plans.stages import structure_stages
-from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import FIGURES, drawing
@@ -168,9 +166,9 @@ def rules(root):
     """Rule -> names of its code, from the rules' files: of a figure, the step that draws and the module of its function."""
     text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
     settings = read_settings(root)
-    structure, made, sweep = Structure(settings), Provenance(settings), Sweep(settings)
-    shared = structure_stages(structure, made)
-    shared |= {"run_up": RunUps(sweep).stage(made), "looks": Judged(sweep).looks(made)}
+    sweep = Sweep(settings)
+    shared = structure_stages(sweep)
+    shared |= {"run_up": RunUps(sweep).stage(), "looks": Judged(sweep).looks()}
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]

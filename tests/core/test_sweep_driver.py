@@ -22,7 +22,7 @@ from r37core.base.io import CarriedError, Named
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import SpeedPlan, plan_speeds
 from r37core.config import command_line_document
-from r37core.plans.provenance import Provenance
+from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.rom.rotation import BucklingError
 from r37core.stress.statistic import Strengths
@@ -124,7 +124,7 @@ def test_more_members_run_alone(root, tmp_path, sweep, run_speeds):
         changes |= {"tolerances": {"members": members, "of_scenes": friction}}
         plan = Tolerances(settings := read_settings(root, command_line_document(changes)))
         params = {"sweeps": plan.sweeps(where), "speeds": plan.speeds(where), "structure": plan.structure(where)}
-        params |= {"about": plan.about(where), "provenance": Provenance(settings).sweep(where), "cores": 1}
+        params |= {"about": plan.about(where), "provenance": Sweep(settings).provenance(where), "cores": 1}
         output.members.parent.mkdir(parents=True, exist_ok=True)
         steps.run(files, output, Named(**params))
 

@@ -13,8 +13,6 @@ from r37core.config import ConfigError, command_line_document
 from r37core.config.settings import most_runs
 from r37core.contact.scene import Scene
 from r37core.plans.paths import filled
-from r37core.plans.provenance import Provenance
-from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
@@ -186,7 +184,7 @@ def test_models_of_a_scene_and_without_stress_no_basis(chosen):
     sweep = Sweep(chosen)
     assert sweep.contact_model(REF) == "<results>/Ref/contact_pressure_edge.npz"
     assert sweep.models(L50)[1:] == ["<results>/L50/stress_pressure_edge.npz"]
-    assert Structure(chosen).boundary(of(blade="Ref", tip_line="camber"))["tip_line"] == "camber"
+    assert Sweep(chosen).boundary(of(blade="Ref", tip_line="camber"))["tip_line"] == "camber"
     plain = chosen.scene_designs.entries["direct"].model_copy(update={"results": ["spectrum"]})
     sweep = Sweep(with_scene(chosen, "direct", plain))
     assert sweep.models(L50)[1:] == []
@@ -213,16 +211,16 @@ def test_datasets_join_the_runs_that_have_their_kind(chosen):
 
 
 def test_provenance(chosen):
-    attributes = Provenance(chosen).sweep(of(blade="Ref", scene="direct"))
+    attributes = Sweep(chosen).provenance(of(blade="Ref", scene="direct"))
     assert attributes["blade"] == "Ref"
     assert attributes["fidelity"] == "standard"
     steps = chosen.fidelity.time_integration.largest_time_step_s
     assert attributes["largest_time_step"] == steps.direct
     assert attributes["numerics"] == f"20000 nodes, exact_modal of {steps.lined:g} s with lining, {steps.direct:g} s without"
     # what joins datasets of one level
-    assert Provenance(chosen).sweep(REF)["numerics"] == attributes["numerics"]
+    assert Sweep(chosen).provenance(REF)["numerics"] == attributes["numerics"]
     assert from_plain(Scene, json.loads(attributes["scene_parameters"])) == chosen.scenes["direct"].scene
-    assert json.loads(Provenance(chosen).sweep(REF)["scene_parameters"])["lining"]
+    assert json.loads(Sweep(chosen).provenance(REF)["scene_parameters"])["lining"]
 
 
 @pytest.mark.parametrize(
@@ -248,9 +246,10 @@ def test_the_input_hash_is_of_all_that_a_file_is_made_of(config_copy, name, old,
         stream.write("Mine: { base: Ref, chordwise_sweep_deg: 5 }\n")
 
     def hashes():
-        made, blade = Provenance(read_settings(config_copy)), of(blade="Mine", scene="direct")
-        assert made.sweep(blade)["input_hash"] == made.structure(blade)["input_hash"]
-        return {"shape": made.shape(blade)["input_hash"], "structure": made.structure(blade)["input_hash"]}
+        plan, blade = Sweep(read_settings(config_copy)), of(blade="Mine", scene="direct")
+        shape, structure = (made(blade)["input_hash"] for made in (plan.shape_provenance, plan.structure_provenance))
+        assert plan.provenance(blade)["input_hash"] == structure
+        return {"shape": shape, "structure": structure}
 
     before, file = hashes(), config_copy / f"config/{name}.yaml"
     assert old in file.read_text()

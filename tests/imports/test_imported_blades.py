@@ -16,7 +16,6 @@ from r37core.fem.orientation import OURS
 from r37core.figures.declared import FIGURES
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
-from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
@@ -236,7 +235,7 @@ def three(settings_with, config_copy, monkeypatch):
     """A blade of each kind, seen from the project's folder."""
     monkeypatch.chdir(config_copy)
     settings = settings_with(MESH, {"Given": MATRICES}, blades=("Ref", "Fan", "Given"))
-    return Structure(settings), Sweep(settings)
+    return Sweep(settings), Sweep(settings)
 
 
 def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
@@ -285,7 +284,7 @@ def test_plan_of_exports(three):
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.msh", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.msh", "Given/modes", "Given/stress_direct"}
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")
-    structure = Structure(sweep.settings)
+    structure = Sweep(sweep.settings)
     assert structure.whole_blade_model(fan) == "<results>/Fan/whole_blade_pressure_edge.nc"
     assert structure.boundary(fan)["tip_line"] == "camber"
     assert exports.orientation(fan)["length_unit"] == "mm"

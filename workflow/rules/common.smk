@@ -13,9 +13,7 @@ from r37core.explorer import parts_hash, page_parts
 from r37core.base.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes
-from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage, structure_stages
-from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.targets import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
@@ -38,15 +36,13 @@ SOURCE = console.source
 code = CodeHashes(SOURCE, SCRIPTS)
 # parameters of rules: a step, which is a function of a package, and the hash of its code
 step = code.step
-made = Provenance(settings)
-structure = Structure(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
 more_motions, further_runs = offered("motions", sweep), offered("further_runs", sweep)
 run_up_dataset, members = offered("run_ups", sweep), offered("members", sweep)
 # speeds in operation, by which results are judged as well
 operating = to_plain(operating_range(settings))
 drawing = partial(drawing_of, code, operating)
-stages = structure_stages(structure, made)
+stages = structure_stages(sweep)
 
 
 def stage(made: Stage):

@@ -29,7 +29,7 @@ for figure in FIGURES:
             "../scripts/step.py"
 
 
-shaped = [name for name in sweep.drawn["blade"] if name in structure.meshed_blades]
+shaped = [name for name in sweep.drawn["blade"] if name in sweep.meshed_blades]
 
 
 # rendered off screen into its file
@@ -49,6 +49,6 @@ use rule step as blade_shapes_figure with:
 rule campbell:
     input:
         rules.campbell_of_all.output,
-        expand(rules.mesh.output.msh, blade=structure.meshed_blades),
+        expand(rules.mesh.output.msh, blade=sweep.meshed_blades),
         expand(rules.campbell_figure.output, blade=sweep.drawn["blade"]),
         rules.blade_shapes_figure.output if shaped else [],

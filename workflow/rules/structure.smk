@@ -9,7 +9,7 @@ use rule step as geometry with:
     log:
         "<logs>/{blade}/geometry.log",
     wildcard_constraints:
-        blade=structure.pattern("geometry"),
+        blade=sweep.pattern("geometry"),
     # an impossible shape should stop the run before any long work
     priority: 10
     params:
@@ -25,7 +25,7 @@ use rule step as mesh with:
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
-        blade=structure.pattern("mesh"),
+        blade=sweep.pattern("mesh"),
     # a mesh or model that fails should do so before the first simulation
     priority: 2
     params:
@@ -40,7 +40,7 @@ use rule step as reduced_model with:
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
-        blade=structure.pattern("reduced_model"),
+        blade=sweep.pattern("reduced_model"),
     priority: 2
     resources:
         mem_mb=memory_of_model,
@@ -56,7 +56,7 @@ use rule reduced_model as whole_blade_model with:
         "<logs>/{blade}/whole_blade_model_{tip_line}.log",
     priority: 0
     params:
-        reduction=lambda wildcards: {**structure.reduction(wildcards), "recover_whole_blade": True},
+        reduction=lambda wildcards: {**sweep.reduction(wildcards), "recover_whole_blade": True},
         kept=False,
 
 

@@ -58,7 +58,7 @@ use rule step as simulate with:
         **step("r37core.time_integration.speed_job.simulate"),
         # one parameter, as Snakemake takes a millisecond to ask for each
         job=lambda wildcards: {"speed": wildcards.speed, "task": sweep.task(wildcards)},
-        about=made.sweep,
+        about=sweep.provenance,
 
 
 # a second, between the jobs of a cluster
@@ -105,4 +105,4 @@ use rule step as response with:
         stress_history_speeds=sweep.stress_history_speeds,
         yield_stress=sweep.yield_stress,
         strengths=sweep.strengths,
-        provenance=made.sweep,
+        provenance=sweep.provenance,

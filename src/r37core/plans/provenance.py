@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import UserDict
+from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -26,48 +27,41 @@ class Attributes(UserDict[str, Any]):
         return json.dumps(self.data)
 
 
-class Provenance:
-    """Attributes of the files of a run, made once for each blade and scene and not for each of thousands of jobs.
+def structure_provenance(settings: Settings) -> Callable[[str], Attributes]:
+    """Gives the attributes of a blade's mesh, reduced model and Campbell diagram, made once."""
 
-    Its methods are parameters of rules: they take Snakemake's wildcards.
-    """
-
-    def __init__(self, settings: Settings):
-        self._settings = settings
-        self._structure = cache(self._structure_of)
-        self._sweep = cache(self._sweep_of)
-
-    def shape(self, wildcards: Any) -> Attributes:
-        """Attributes of a blade's geometry."""
-        return Attributes(blade=wildcards.blade, input_hash=shape_hash(self._settings, wildcards.blade))
-
-    def structure(self, wildcards: Any) -> Attributes:
-        """Attributes of a blade's mesh, reduced model and Campbell diagram."""
-        return self._structure(wildcards.blade)
-
-    def sweep(self, wildcards: Any) -> Attributes:
-        """Attributes of the simulations of one blade and scene."""
-        return self._sweep(wildcards.blade, wildcards.scene)
-
-    def _structure_of(self, blade: str) -> Attributes:
-        level, contact = self._settings.fidelity_name, self._settings.contact_of(blade)
-        made_of, kinematics = structure_hash(self._settings, blade), self._settings.kinematics_of(blade)
-        moved = {} if kinematics == LINEAR else {"kinematics": kinematics}
-        return Attributes(blade=blade, fidelity=level, contact=contact, **moved, input_hash=made_of)
-
-    def _sweep_of(self, blade: str, scene: str) -> Attributes:
-        chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration
-        step = steps.largest_step(chosen.scene)
+    @cache
+    def attributes(blade: str) -> Attributes:
+        kinematics = settings.kinematics_of(blade)
         return Attributes(
-            self._structure(blade),
+            blade=blade,
+            fidelity=settings.fidelity_name,
+            contact=settings.contact_of(blade),
+            **({} if kinematics == LINEAR else {"kinematics": kinematics}),
+            input_hash=structure_hash(settings, blade),
+        )
+
+    return attributes
+
+
+def sweep_provenance(settings: Settings) -> Callable[[str, str], Attributes]:
+    """Gives the attributes of the simulations of a blade and scene, made once and not for each of thousands of jobs."""
+
+    @cache
+    def attributes(blade: str, scene: str) -> Attributes:
+        chosen, steps = settings.scenes[scene], settings.fidelity.time_integration
+        return Attributes(
+            settings.made(structure_provenance)(blade),
             scene=scene,
             scene_parameters=to_json(chosen.scene),
             revolutions=chosen.revolutions,
             **({"until": "settled"} if chosen.until_settled else {}),
-            largest_time_step=step,
+            largest_time_step=steps.largest_step(chosen.scene),
             # steps of all kinds of scenes, because datasets of one level may be joined
-            numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.wording}",
+            numerics=f"{settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.wording}",
         )
+
+    return attributes
 
 
 def shape_hash(settings: Settings, blade: str) -> str:

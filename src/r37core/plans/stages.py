@@ -10,7 +10,6 @@ from r37core.base.plain import to_plain
 from r37core.blade.definition import shape_modules
 from r37core.config import plain, si_fields
 
-from .provenance import Provenance
 from .structure_plan import Structure
 
 
@@ -33,18 +32,18 @@ class Stage:
         return {name: param(wildcards) if callable(param) else param for name, param in self.params.items()}
 
 
-def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]:
+def structure_stages(structure: Structure) -> dict[str, Stage]:
     """Stages from blade shape to Campbell diagram, by the names of their rules."""
     settings = structure.settings
-    reduction = reduction_parameters(structure, made)
-    shape = {"definition": structure.definition, "edges": settings.structure.edges, "provenance": made.shape}
+    reduction = reduction_parameters(structure)
+    shape = {"definition": structure.definition, "edges": settings.structure.edges, "provenance": structure.shape_provenance}
     regions = {"stress_regions": lambda wildcards: to_plain(settings.stress_regions(wildcards.blade))}
     own = {"material": structure.elastic, **regions, "kept": True}
     diagram = {
         "campbell": si_fields(settings.config.campbell),
         "maximum_speed": settings.structure.maximum_speed_rad_s,
         "tip_line": settings.structure.boundary.tip_line,
-        "provenance": made.structure,
+        "provenance": structure.structure_provenance,
     }
     reduced = {"rom": "reduced_model"}
     shapes = shape_modules()
@@ -68,15 +67,15 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
         "campbell_of_blade": Stage("r37core.results.steps.campbell_of_blade", diagram, "Campbell diagram", reduced),
     }
     for more in registered("STAGES").values():
-        stages |= function_named(more)(structure, made)
+        stages |= function_named(more)(structure)
     return stages
 
 
-def reduction_parameters(structure: Structure, made: Provenance) -> dict[str, Any]:
+def reduction_parameters(structure: Structure) -> dict[str, Any]:
     """Parameters of a stage that makes a reduced model, whatever from."""
     return {
         "boundary": structure.boundary,
         "reduction": structure.reduction,
         "contact": structure.location_of_contact,
-        "provenance": made.structure,
+        "provenance": structure.structure_provenance,
     }

@@ -11,7 +11,7 @@ from r37core.config import Settings
 from r37core.config.settings import location_of_contact
 
 from .paths import WHOLE_BLADE_MODEL, fill
-from .provenance import Attributes
+from .provenance import Attributes, shape_hash, structure_provenance
 
 STAGES = ("geometry", "mesh", "reduced_model")
 """Stages that a blade of another kind may have others in place of."""
@@ -19,7 +19,10 @@ STAGES = ("geometry", "mesh", "reduced_model")
 
 @dataclass(frozen=True)
 class Structure:
-    """Inputs and numbers of the rules from shape, or import, to Campbell diagram; `wildcards` as of Sweep."""
+    """Inputs and numbers of the rules from shape, or import, to Campbell diagram: a part of the plan of a Sweep.
+
+    Methods with `wildcards` are inputs and parameters of rules.
+    """
 
     settings: Settings
 
@@ -75,6 +78,14 @@ class Structure:
     def locations(self, wildcards: Any) -> Attributes:
         """Where the keys of a blade stand, as `file:line: blade.key`; a new line re-runs nothing."""
         return Attributes(self.settings.designs.locations_of_keys(wildcards.blade))
+
+    def shape_provenance(self, wildcards: Any) -> Attributes:
+        """Attributes of a blade's geometry."""
+        return Attributes(blade=wildcards.blade, input_hash=shape_hash(self.settings, wildcards.blade))
+
+    def structure_provenance(self, wildcards: Any) -> Attributes:
+        """Attributes of a blade's mesh, reduced model and Campbell diagram."""
+        return self.settings.made(structure_provenance)(wildcards.blade)
 
     @property
     def folder(self) -> Attributes:

@@ -11,13 +11,15 @@ from r37core.adaptive.refinement_choice import RefinementChoice
 from r37core.base.io import as_list, read_json, readable
 from r37core.base.plain import to_json, to_plain
 from r37core.base.speeds import SpeedPlan
-from r37core.config import Settings, si_form
+from r37core.config import si_form
 from r37core.contact.scene import Scene
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_job import Task
 from r37core.time_integration.speed_run import OF_RUNS
 
 from . import paths
+from .provenance import Attributes, sweep_provenance
+from .structure_plan import Structure
 
 KINDS = ("rms", "spectrum", "stress", "fatigue", "wear", "casing")
 """Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
@@ -30,16 +32,19 @@ MOST_BLADES_DRAWN = 24
 
 
 @dataclass(frozen=True)
-class Sweep:
-    """Plan of the sweep that `settings` ask for.
+class Sweep(Structure):
+    """Plan of the sweep that `settings` ask for, and of the structures that it starts from.
 
-    Methods with `wildcards` are inputs and parameters of rules. `round_file(blade=..., scene=..., round=...)`: file of a
+    `round_file(blade=..., scene=..., round=...)`: file of a
     finished round of refinement; Snakemake's own exception for one that is still to be made. Without it adaptive speeds have
     no plan.
     """
 
-    settings: Settings
     round_file: Callable[..., str] | None = None
+
+    def provenance(self, wildcards: Any) -> Attributes:
+        """Attributes of the simulations of one blade and scene."""
+        return self.settings.made(sweep_provenance)(wildcards.blade, wildcards.scene)
 
     def contact_model(self, wildcards: Any) -> str:
         """Contact model that the simulations of a blade and scene start from."""

@@ -16,9 +16,9 @@ from r37core.base.plain import to_plain
 from r37core.config import Settings
 from r37core.machine_code.kept import kept_file, numerics
 from r37core.plans.code import CodeHashes
-from r37core.plans.provenance import Attributes, Provenance
+from r37core.plans.provenance import Attributes
 from r37core.plans.stages import structure_stages
-from r37core.plans.structure_plan import Structure
+from r37core.plans.sweep_plan import Sweep
 
 LOGGER = logging.getLogger("r37")
 """Logger of what a call or a job does now."""
@@ -86,7 +86,7 @@ def recipes(settings: Settings, blade: str, tip_lines: Mapping[str, str | None],
 
     Without a line that of config.yaml counts. `kept`: whether the user's cache has a copy of the reduced model.
     """
-    stages = structure_stages(Structure(settings), Provenance(settings))
+    stages = structure_stages(Sweep(settings))
     others = settings.blades[blade].definition.stages
 
     @cache
@@ -103,7 +103,7 @@ def recipes(settings: Settings, blade: str, tip_lines: Mapping[str, str | None],
 
 def structure_attributes(settings: Settings, blade: str) -> Attributes:
     """Parameters of the stages of a blade's structure that are for messages: where its keys stand, and its files."""
-    structure, wildcards = Structure(settings), Named(blade=blade)
+    structure, wildcards = Sweep(settings), Named(blade=blade)
     contact, locations = structure.location_of_contact(wildcards), structure.locations(wildcards)
     return Attributes(contact=contact, locations=locations, folder=structure.folder)
 

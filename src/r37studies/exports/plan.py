@@ -14,7 +14,6 @@ from r37core.config.speed_section import refuse_both_units, word_or_speeds
 from r37core.fem.orientation import OURS
 from r37core.plans import paths
 from r37core.plans.extension import Extension
-from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.rom.reduction_choice import LINEAR
 
@@ -91,7 +90,7 @@ class Exports:
         settings = self.sweep.settings
         tip_line = settings.structure.boundary.tip_line
         files = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
-        if self._section.full_matrices and wildcards.blade in Structure(settings).meshed_blades:
+        if self._section.full_matrices and wildcards.blade in Sweep(settings).meshed_blades:
             files |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
         return files
 
@@ -112,7 +111,7 @@ class Exports:
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Files and folders that this run's configuration asks for."""
     settings = sweep.settings
-    imported, formats = Structure(settings), settings.section(SECTION).mesh_formats
+    imported, formats = Sweep(settings), settings.section(SECTION).mesh_formats
     return {
         EXPORTED_MESH: [{"blade": blade, "format": name} for blade in imported.meshed_blades for name in formats],
         EXPORTED_MODES: paths.of("blade", imported.meshed_blades),

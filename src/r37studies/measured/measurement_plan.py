@@ -12,7 +12,6 @@ from r37core.config.messages import single_line
 from r37core.config.settings import FARTHEST
 from r37core.plans import paths
 from r37core.plans.extent import Pair
-from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.stress.gauge import Gauge
 
@@ -52,7 +51,7 @@ class Measured:
         if TIP_TIMING in quantities:
             files["rom"] = sweep.reduced_model(wildcards)
         if STRAIN in quantities:
-            files |= {"mesh": paths.fill(paths.MESH, **where), "whole": Structure(self.settings).whole_blade_model(wildcards)}
+            files |= {"mesh": paths.fill(paths.MESH, **where), "whole": Sweep(self.settings).whole_blade_model(wildcards)}
         return files
 
     def _read(self, number: int, entry: MeasurementSection) -> Measurement:
@@ -78,7 +77,7 @@ class Measured:
                 allowed = f"one of signals.gauges ({', '.join(gauges) or 'none'}), or a place: chord, span, side, angle_deg"
                 raise refusal("gauge", f"'{single_line(gauge)}'", allowed)
             gauge = gauges[gauge]
-        if gauge is not None and entry.blade not in Structure(settings).meshed_blades:
+        if gauge is not None and entry.blade not in Sweep(settings).meshed_blades:
             raise refusal("gauge", f"a gauge on '{entry.blade}', which has no mesh", "a blade with one")
         try:
             points, speeds = read_points(settings.root / entry.file, entry)

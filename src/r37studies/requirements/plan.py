@@ -16,7 +16,6 @@ from r37core.config.settings import contact_nodes, length_of_run
 from r37core.contact.casing import least_change
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Panel
-from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.datasets import FURTHER_RUNS
@@ -112,7 +111,7 @@ class Judged:
         model = ModelChoice(nodes, contact, modes, "submesh")
         return {f"coarser_{kind}": paths.fill(MODEL_FILES[kind], blade=blade, model=model.name) for kind in ("contact", "rom")}
 
-    def looks(self, made: Provenance) -> Stage:
+    def looks(self) -> Stage:
         """The stage of the further runs of a blade and scene."""
         settings = self.sweep.settings
         operating = operating_range(settings)
@@ -131,7 +130,7 @@ class Judged:
             "clearance": lambda wildcards: self.clearance.get(wildcards.scene, nan),
             "thickness": lambda wildcards: self.thickness.get(wildcards.scene, nan),
             "error": lambda wildcards: level_errors(settings, [(wildcards.blade, wildcards.scene)])[0],
-            "provenance": made.sweep,
+            "provenance": self.sweep.provenance,
         }
         return Stage("r37studies.requirements.steps.look", params)
 

@@ -14,7 +14,6 @@ from r37core.config.remarks import elastic_casings, remark_on_overtaken_waves
 from r37core.config.settings import fastest_of, length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -60,7 +59,7 @@ class RunUps:
             files["campbell"] = paths.fill(paths.CAMPBELL, blade=wildcards.blade)
         return files
 
-    def stage(self, made: Provenance) -> Stage:
+    def stage(self) -> Stage:
         """Stage of a run-up."""
         return Stage(
             "r37studies.run_ups.steps.record",
@@ -73,7 +72,7 @@ class RunUps:
                 "highest_order": self.sweep.settings.fidelity.time_integration.spectrum_highest_order,
                 "yield_stress": self.sweep.yield_stress,
                 "strengths": self.sweep.strengths,
-                "provenance": made.sweep,
+                "provenance": self.sweep.provenance,
             },
         )
 

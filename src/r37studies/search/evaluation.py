@@ -18,7 +18,7 @@ from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.config.settings import judged_region
 from r37core.fem.equilibrium import NoEquilibriumError
 from r37core.machine_code.kept import kept_file
-from r37core.plans.provenance import Provenance
+from r37core.plans.sweep_plan import Sweep
 from r37core.results.columns import MINIMISED
 from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
@@ -112,7 +112,7 @@ class Evaluation:
                 for scene, several in members.items()
             },
             speeds={scene: shared_speeds(varied, blade, scene) for scene, varied in nominal.items()},
-            about={scene: str(Provenance(varied).sweep(Named(blade=blade, scene=scene))) for scene, varied in nominal.items()},
+            about={scene: str(Sweep(varied).provenance(Named(blade=blade, scene=scene))) for scene, varied in nominal.items()},
             density=material.density,
         )
 

@@ -5,7 +5,6 @@ from pydantic import Field
 from r37core.config.section import ExtensionSection, Section
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 
 
@@ -29,7 +28,7 @@ def _runs(sweep: Sweep) -> paths.Wildcards:
 
 def _blades(sweep: Sweep) -> paths.Wildcards:
     """Blades with modes: those of the runs, and meshes of other programs."""
-    meshes = Structure(sweep.settings).made_by("imported_mesh") if sweep.settings.section(SECTION).imported else []
+    meshes = sweep.made_by("imported_mesh") if sweep.settings.section(SECTION).imported else []
     wanted = {*meshes, *(blade for blade, _ in sweep.runs_with("shapes"))}
     return paths.of("blade", [blade for blade in sweep.settings.blades if blade in wanted])
 

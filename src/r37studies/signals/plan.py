@@ -9,7 +9,6 @@ from r37core.config.cross_checks import slow_run_can_be_done
 from r37core.config.settings import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.stress.gauge import Gauge
 
@@ -41,7 +40,7 @@ class Signals:
 
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """Gauges of a blade as plain values; a blade given by matrices has none."""
-        gauges = self._section.gauges if wildcards.blade in Structure(self.sweep.settings).meshed_blades else {}
+        gauges = self._section.gauges if wildcards.blade in self.sweep.meshed_blades else {}
         return {name: to_plain(si_form(Gauge, entry)) for name, entry in gauges.items()}
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
@@ -53,7 +52,7 @@ class Signals:
             "rom": self.sweep.reduced_model(wildcards),
         }
         if self.gauges(wildcards):
-            whole = Structure(self.sweep.settings).whole_blade_model(wildcards)
+            whole = self.sweep.whole_blade_model(wildcards)
             files |= {"mesh": paths.fill(paths.MESH, **where), "whole": whole}
         if not self.speeds:
             files |= {"campbell": paths.fill(paths.CAMPBELL, **where), "response": paths.fill(paths.RESPONSE, **where)}

@@ -11,7 +11,7 @@ from r37core.config import BladeSettings, Settings, varied_settings
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.extent import Pair, extent_of
-from r37core.plans.provenance import Attributes, Provenance
+from r37core.plans.provenance import Attributes
 from r37core.plans.sweep_plan import Sweep
 from r37core.sweep.blade_sweep import CAMPBELL, blade_sweep, shared_speeds
 from r37core.sweep.recipe import structure_attributes
@@ -69,7 +69,7 @@ class Tolerances:
 
     def about(self, wildcards: Any) -> Attributes:
         """Attributes of the files of each member, as JSON."""
-        varied = ((name, Provenance(settings).sweep(wildcards)) for name, _, settings in self._varied(wildcards))
+        varied = ((name, Sweep(settings).provenance(wildcards)) for name, _, settings in self._varied(wildcards))
         return Attributes({name: str(Attributes(made, member=name)) for name, made in varied})
 
     def structure(self, wildcards: Any) -> Attributes:

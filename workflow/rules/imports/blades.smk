@@ -3,14 +3,14 @@
 
 use rule step as imported_mesh with:
     input:
-        structure.files,
+        sweep.files,
     output:
         msh=rules.mesh.output.msh,
         vtu=paths.MESH,
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
-        blade=structure.pattern("imported_mesh"),
+        blade=sweep.pattern("imported_mesh"),
     # an unsuitable mesh, like an impossible shape, should stop the run before any long work
     priority: 10
     params:
@@ -19,13 +19,13 @@ use rule step as imported_mesh with:
 
 use rule step as imported_matrices with:
     input:
-        structure.files,
+        sweep.files,
     output:
         rom=paths.REDUCED_MODEL,
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
-        blade=structure.pattern("imported_matrices"),
+        blade=sweep.pattern("imported_matrices"),
     priority: 10
     resources:
         mem_mb=memory_of_model,

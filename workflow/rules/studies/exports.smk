@@ -16,7 +16,7 @@ use rule step as exported_mesh with:
     params:
         **step("r37studies.exports.steps.mesh"),
         blade="{blade}",
-        material=structure.elastic,
+        material=sweep.elastic,
         orientation=exported.orientation,
 
 
@@ -34,7 +34,7 @@ use rule step as exported_surface with:
 use rule step as exported_modes with:
     input:
         mesh=paths.MESH,
-        model=structure.whole_blade_model,
+        model=sweep.whole_blade_model,
     output:
         folder=directory(exports_plan.EXPORTED_MODES),
     log:
@@ -48,7 +48,7 @@ use rule step as exported_modes with:
 use rule step as exported_stress with:
     input:
         mesh=paths.MESH,
-        model=structure.whole_blade_model,
+        model=sweep.whole_blade_model,
         speeds=exported.speed_files,
     output:
         folder=directory(exports_plan.EXPORTED_STRESS),
@@ -59,7 +59,7 @@ use rule step as exported_stress with:
         choice=exported.choice,
         speeds=sweep.speeds,
         only_worst=exported.only_worst,
-        material=structure.elastic,
+        material=sweep.elastic,
         orientation=exported.orientation,
 
 
@@ -74,4 +74,4 @@ use rule step as exported_matrices with:
         **step("r37studies.exports.steps.matrices"),
         choice=exported.choice,
         tip_line=settings.structure.boundary.tip_line,
-        material=structure.material,
+        material=sweep.material,

@@ -2,7 +2,7 @@
 from r37studies.requirements.plan import ALL_LOOKS, LOOKS, VERDICT, Judged
 
 judged = Judged(sweep)
-stages |= {"looks": judged.looks(made)}
+stages |= {"looks": judged.looks()}
 
 
 use rule step as looks with:

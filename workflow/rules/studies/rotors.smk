@@ -13,7 +13,7 @@ use rule step as rotor_of_run with:
         **step("r37studies.rotors.steps.rotor_of_run"),
         speeds=sweep.speeds,
         yield_stress=sweep.yield_stress,
-        provenance=made.sweep,
+        provenance=sweep.provenance,
 
 
 use rule step as rotors_dataset with:

@@ -14,7 +14,7 @@ use rule step as run_up with:
     wildcard_constraints:
         run_up="|".join(settings.section(run_ups_plan.SECTION)) or "none",
     params:
-        **stage(run_ups.stage(made)),
+        **stage(run_ups.stage()),
 
 
 use rule step as run_ups_dataset with:

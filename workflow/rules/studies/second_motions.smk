@@ -24,7 +24,7 @@ use rule step as second_motion_sweep with:
         kept=settings.fidelity.time_integration.kept,
         yield_stress=sweep.yield_stress,
         strengths=sweep.strengths,
-        provenance=made.sweep,
+        provenance=sweep.provenance,
 
 
 use rule step as second_motion_dwells with:
@@ -39,7 +39,7 @@ use rule step as second_motion_dwells with:
         **step("r37studies.second_motions.steps.dwell"),
         **motions_plan.parameters(sweep),
         dwell=to_plain(settings.section(motions_plan.SECTION).dwells()),
-        provenance=made.sweep,
+        provenance=sweep.provenance,
 
 
 use rule step as second_motions_tables with:

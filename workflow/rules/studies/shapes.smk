@@ -5,7 +5,7 @@ from r37studies.shapes.plan import MODE_SHAPES, SECTION as SHAPES, WORST_SHAPES
 use rule step as mode_shapes with:
     input:
         mesh=paths.MESH,
-        model=structure.whole_blade_model,
+        model=sweep.whole_blade_model,
     output:
         folder=directory(MODE_SHAPES),
     log:
@@ -13,13 +13,13 @@ use rule step as mode_shapes with:
     params:
         **step("r37studies.shapes.steps.modes"),
         modes=settings.section(SHAPES).modes,
-        material=structure.elastic,
+        material=sweep.elastic,
 
 
 use rule step as worst_shapes with:
     input:
         mesh=paths.MESH,
-        model=structure.whole_blade_model,
+        model=sweep.whole_blade_model,
         campbell=paths.CAMPBELL,
         response=paths.RESPONSE,
         speeds=sweep.speed_files,
@@ -32,4 +32,4 @@ use rule step as worst_shapes with:
         scene="{scene}",
         speeds=sweep.speeds,
         interactions=plain(settings.config.interactions),
-        material=structure.elastic,
+        material=sweep.elastic,

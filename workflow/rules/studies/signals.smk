@@ -21,7 +21,7 @@ use rule step as signals_of_run with:
         gauges=recorded.gauges,
         probes=recorded.probes,
         tip_line=lambda wildcards: settings.scenes[wildcards.scene].tip_line,
-        provenance=made.sweep,
+        provenance=sweep.provenance,
 
 
 use rule step as signals_dataset with:

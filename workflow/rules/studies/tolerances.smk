@@ -25,7 +25,7 @@ use rule step as tolerance_members with:
         speeds=tolerances.speeds,
         structure=tolerances.structure,
         about=tolerances.about,
-        provenance=made.sweep,
+        provenance=sweep.provenance,
 
 
 use rule step as tolerances_dataset with:

@@ -34,8 +34,8 @@ use rule step as trial_model with:
     params:
         **step("r37studies.trials.steps.model"),
         choice=trials.reduction,
-        material=structure.material,
-        provenance=made.structure,
+        material=sweep.material,
+        provenance=sweep.structure_provenance,
 
 
 for name, preset in PRESETS.items():
