@@ -1,9 +1,8 @@
-"""What tests of the explorer show: a made-up sweep, its interactions, and pages beside one that is open."""
+"""What tests of the explorer show: a made-up sweep, and pages beside one that is open."""
 
 from contextlib import contextmanager
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 from browser import LONGEST
 
@@ -66,14 +65,6 @@ def sweep():
             axes | {"scene": ["abradable"], "angle": np.radians(np.arange(360))},
         ),
     }
-
-
-def interaction_rows():
-    """One explained by a crossing, in the lining, and one that none explains."""
-    row = {"blade": "Ref", "scene": "abradable", "mode": "1B", "engine_order": 4}
-    row |= {"peak_speed_rad_s": 1200.0, "status": "completed"}
-    other = row | {"scene": "direct", "mode": None, "engine_order": 2, "peak_speed_rad_s": 1000.25, "largest_stress_pa": np.nan}
-    return pd.DataFrame([row, other])
 
 
 @contextmanager

@@ -35,7 +35,7 @@ TESTS = {
     "results/closing.py": "test_closing.py",
     "results/datasets.py": "test_results.py",
     "results/exceedance.py": "test_exceedance.py",
-    "results/columns.py": "test_explorer_tables.py",
+    "results/columns.py": "test_results.py",
     "results/contact_ranges.py": "test_exceedance.py",
     "results/interactions.py": "test_interactions.py test_results.py",
     "results/joining.py": "test_results.py test_reliability.py",
@@ -53,7 +53,7 @@ TESTS = {
     "time_integration/speed_run.py": "test_run_statistics.py",
     "plans/sweep_plan.py": "test_workflow_plans.py",
     "results/": "test_results.py test_exceedance.py test_interactions.py test_measures.py test_campbell.py "
-    "test_elastic_casing.py test_explorer_tables.py test_tolerances.py",
+    "test_elastic_casing.py test_explorer.py test_tolerances.py",
     "rotors/": "test_rotor_numbers.py",
     "search/": "test_search.py test_search_steps.py test_search_calls.py",
     "surrogate/gaussian_processes.py": "test_search_proposals.py",

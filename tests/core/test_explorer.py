@@ -2,33 +2,28 @@
 
 import base64
 import gzip
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
 from browser import opened
-from explorer_cases import BLADES, SCENES, SPEEDS, beside, interaction_rows, sweep
+from explorer_cases import BLADES, SPEEDS, beside, sweep
 
+import r37studies
 from r37core.config import command_line_document
-from r37core.explorer import write_page
+from r37core.explorer import page_parts, write_page
 from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import load_settings
-from r37core.product.targets import linked_figures
-from r37core.results.table_file import read_table
+from r37core.product.targets import links
 from r37core.time_integration.status import RunStatus
+from r37studies.designs.panel import contents as design_panel
+
+STUDIES = Path(r37studies.__file__).parent
 
 datasets = pytest.fixture(scope="module")(sweep)
-interactions = pytest.fixture(scope="module")(interaction_rows)
-
-
-@pytest.fixture(scope="module")
-def ranged(interactions):
-    """Interactions with what summary.csv has of the members; the second has none."""
-    ranges = {"low": 1150.0, "median": 1200.5, "high": 1210.0}
-    columns = {f"peak_speed_rad_s_{end}": [speed, np.nan] for end, speed in ranges.items()}
-    return interactions.assign(share_of_members=[0.75, np.nan], robust=[True, None], **columns)
 
 
 def unpacked(array):
@@ -59,8 +54,8 @@ def test_thinning_keeps_the_largest():
     assert orders[starts[10]] == pytest.approx(0.95)
 
 
-def test_contents_are_those_of_the_datasets(datasets, interactions):
-    contents = explorer_contents(datasets, interactions)
+def test_contents_are_those_of_the_datasets(datasets):
+    contents = explorer_contents(datasets)
     curves = {curve["name"]: curve for curve in contents["curves"]}
     rms = datasets["rms"]["rms_normal"].sel(tip_point="leading_edge")
     np.testing.assert_allclose(unpacked(curves["rms_normal"]["values"]), 1e3 * rms, rtol=1e-6)
@@ -73,36 +68,24 @@ def test_contents_are_those_of_the_datasets(datasets, interactions):
     np.testing.assert_array_equal(unpacked(contents["speeds"]), SPEEDS)
     largest = datasets["spectrum"]["amplitude"].sel(engine_order=slice(1.95, 2.045)).max("engine_order")
     np.testing.assert_allclose(unpacked(contents["spectrum"]["values"])[..., 20], 1e3 * largest, rtol=1e-4)
-    assert contents["interactions"][1]["mode"] is None
     # only a linear model is left above yield
     assert contents["outside"] == "above yield: outside the linear model"
     quadratic = datasets | {"rms": datasets["rms"].assign_attrs(contact="11 patches, quadratic: Ref")}
-    assert explorer_contents(quadratic, interactions)["outside"] == "above yield"
+    assert explorer_contents(quadratic)["outside"] == "above yield"
 
 
-def test_a_blade_called_na_keeps_its_name(interactions, tmp_path):
-    """And one that reads like a number; where no mode is, none is made of the gap."""
-    file = tmp_path / "summary.csv"
-    interactions.assign(blade=["NA", "NA"], scene=["1e5", "1e5"]).to_csv(file, index=False)
-    table = read_table(file)
-    assert list(table["blade"]) == ["NA", "NA"]
-    assert list(table["scene"]) == ["1e5", "1e5"]
-    assert table["mode"].isna().tolist() == [False, True]
-    assert table["largest_stress_pa"].isna().all()
-
-
-def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
-    contents = explorer_contents({name: datasets[name] for name in ("rms", "campbell")}, interactions.iloc[:0])
+def test_what_was_not_computed_is_left_out(datasets, tmp_path):
+    contents = explorer_contents({name: datasets[name] for name in ("rms", "campbell")})
     assert contents["spectrum"] is contents["wear"] is contents["history"] is contents["yield_stress"] is None
     assert contents["stress_region"] == {}
     write_page(contents, "r37", tmp_path / "explorer.html")
 
 
 @pytest.fixture(scope="module")
-def page(datasets, interactions, tmp_path_factory):
+def page(datasets, tmp_path_factory):
     """The page in headless Chromium; a message in its console is an error."""
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    contents = explorer_contents(datasets, interactions)
+    contents = explorer_contents(datasets)
     write_page(contents, "r37 <trial>", file)
     with opened(file, viewport={"width": 1500, "height": 1400}) as page:
         page.wait_for_selector("html[data-ready]")
@@ -111,10 +94,10 @@ def page(datasets, interactions, tmp_path_factory):
 
 
 def choose(page, **state):
-    words = "&".join(f"{name}={value}" for name, value in state.items())
+    words = "&".join(f"{name}={value}" for name, value in (state | {"asked": "yes"}).items())
     page.evaluate("words => { window.location.hash = words; }", words)
-    # once all is drawn the page writes its whole state there
-    page.wait_for_function("given => new URLSearchParams(window.location.hash.slice(1)).size > given", arg=len(state))
+    # once all is drawn the page writes its state there, and no more than that
+    page.wait_for_function("!window.location.hash.includes('asked')")
     page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
@@ -145,12 +128,8 @@ def test_the_page_loads_without_an_error(page):
     assert page.problems == []
     assert [one["name"] for one in traces(page, "response")] == ["abradable", "direct", "direct diverged"]
     assert page.title() == "r37 <trial>"
-    assert page.locator(".js-plotly-plot").count() == 6
+    assert page.locator(".js-plotly-plot").count() == 5
     assert page.is_visible("#stress")
-    assert page.locator("#interactions tbody tr").count() == 1
-    assert page.is_hidden("#ranking")
-    page.check("#every")
-    assert page.locator("#interactions tbody tr").count() == 2
 
 
 def test_hover_says_what_the_dataset_has(page, datasets):
@@ -192,118 +171,48 @@ def test_choices_change_what_is_drawn(page, datasets):
     assert "1200 rad/s" in page.text_content("#now")
 
 
-@pytest.mark.parametrize(("place", "speed"), [("", "1100 rad/s"), ("#speed=1200", "1200 rad/s")])
-@pytest.mark.parametrize("scene", SCENES)
-def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp_path, scene, place, speed):
-    """The largest stress of all scenes counts, not the largest motion nor what rows have; the address goes before it."""
-    rms, stress = datasets["rms"].copy(), datasets["stress"].copy(deep=True)
-    rms["status"] = rms["status"].where(rms["status"] != RunStatus.DIVERGED, RunStatus.COMPLETED)
-    stress["max_von_mises_ever"].loc[{"blade": "L<50>", "scene": scene, "speed": 1000.25}] = 4.1e10
-    # a row of direct contact has no stress, and the one at hand has the largest peak of all
-    weaker = interactions.assign(largest_stress_pa=[7e8, np.nan], peak_rms_normal_m=2e-3)
-    rows = [weaker.iloc[[1]].assign(blade="L<50>", scene=scene, peak_speed_rad_s=peak) for peak in (1300.0, 1100.0)]
-    contents = explorer_contents(datasets | {"rms": rms, "stress": stress}, pd.concat([weaker, *rows]))
-    with beside(page, contents, tmp_path / "explorer.html", place=place) as other:
-        assert other.text_content("#now").startswith(f"L<50>, {scene}, {speed}")
-
-
-def test_it_opens_at_a_run_that_diverged_or_without_stress_at_the_largest_motion(page, datasets, interactions, tmp_path):
-    """To have diverged is worse than any number."""
-    with beside(page, explorer_contents(datasets, interactions), tmp_path / "explorer.html") as other:
+def test_it_opens_at_the_worst_run(page, datasets, tmp_path):
+    """To have diverged is worse than any number, then the largest stress of all scenes counts, or the motion without any."""
+    with beside(page, explorer_contents(datasets), tmp_path / "explorer.html") as other:
         now = "Ref, direct, 1200 rad/s, 11459 rpm, diverged: beyond all that has a number"
         assert other.text_content("#now").startswith(now)
     rms = datasets["rms"].copy(deep=True)
     rms["status"] = rms["status"].where(rms["status"] != RunStatus.DIVERGED, RunStatus.COMPLETED)
     rms["rms_normal"].loc[{"blade": "L<50>", "scene": "direct", "speed": 900.0}] = 1.0
-    contents = explorer_contents({"rms": rms, "campbell": datasets["campbell"]}, interactions)
+    stress = datasets["stress"].copy(deep=True)
+    stress["max_von_mises_ever"].loc[{"blade": "L<50>", "scene": "abradable", "speed": 1000.25}] = 4.1e10
+    contents = explorer_contents(datasets | {"rms": rms, "stress": stress})
+    for place, speed in (("", "1000.3 rad/s"), ("#speed=1200", "1200 rad/s")):
+        with beside(page, contents, tmp_path / "explorer.html", place=place) as other:
+            assert other.text_content("#now").startswith(f"L<50>, abradable, {speed}")
+    contents = explorer_contents({"rms": rms, "campbell": datasets["campbell"]})
     with beside(page, contents, tmp_path / "explorer.html") as other:
         assert other.text_content("#now").startswith("L<50>, direct, 900 rad/s")
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_interactions_are_circles_by_danger(page, datasets, interactions, tmp_path, scheme):
-    """Of the chosen scene, with areas as their lengths; a click goes to one. What has no engine order is below 0.
-
-    Above yield in some revolutions has a mark that is not the one for none.
-    """
-    row = interactions.iloc[0].to_dict()
-    none, some = ({"length_most_revolutions_rad_s": 0.0, "share_of_revolutions_above_yield": share} for share in (0.0, 0.02))
-    most = {"share_of_revolutions_above_yield": 0.8}
-    rows = [
-        row | most | {"length_most_revolutions_rad_s": 36.0, "most_revolutions_to_rad_s": 1300.0},
-        row | most | {"blade": "L<50>", "peak_speed_rad_s": 1000.25, "engine_order": 3, "length_most_revolutions_rad_s": 9.0},
-        row | none | {"peak_speed_rad_s": 1100.0},
-        row | some | {"peak_speed_rad_s": 1300.0, "engine_order": 9, "largest_stress_over_yield": 4.52},
-        row | none | {"peak_speed_rad_s": 900.0, "engine_order": None, "status": "diverged"},
-        row | most | {"peak_speed_rad_s": 900.0, "engine_order": None, "length_most_revolutions_rad_s": 4.0},
-    ]
-    contents = explorer_contents(datasets, pd.DataFrame(rows))
-    place = "#scene=abradable&blade=Ref&speed=900"
-    with beside(page, contents, tmp_path / "explorer.html", (1400, 1000), place, color_scheme=scheme) as other:
-        plot = "document.getElementById('interaction_map')"
-        marks = {
-            (one["name"], x): (y, *look)
-            for one in other.evaluate(f"{plot}.data.filter(({{ name }}) => {[*BLADES, 'diverged']}.includes(name))")
-            if one["x"] != [None]
-            for x, y, *look in zip(
-                one["x"],
-                one["y"],
-                *(np.resize(one["marker"][key], len(one["x"])) for key in ("size", "symbol", "color")),
-                strict=True,
-            )
-        }
-        speeds = {("Ref", speed) for speed in (1200.0, 1100.0, 1300.0, 900.0)}
-        assert set(marks) == speeds | {("L<50>", 1000.25), ("diverged", 900.0)}
-        assert marks["L<50>", 1000.25][0] == pytest.approx(3 * 1000.25 / (2 * np.pi))
-        assert marks["Ref", 1200.0][1] == pytest.approx(2.0 * marks["L<50>", 1000.25][1])
-        assert marks["Ref", 900.0][0] == marks["diverged", 900.0][0] < 0.0
-        looks = {speed: marks["Ref", speed][2:] for speed in (1200.0, 1300.0, 1100.0)}
-        assert [symbol for symbol, _ in looks.values()] == ["circle", "diamond", "circle"]
-        assert [colour == "rgba(0,0,0,0)" for _, colour in looks.values()] == [False, False, True]
-        texts = other.evaluate(f"{plot}.layout.annotations.map(({{ text }}) => text)")
-        labels = ["Ref 1B/4, > 36 rad/s", "L&lt;50> 1B/3, 9 rad/s", "Ref, 4 rad/s", "Ref 1B/9, up to 4.5 x yield"]
-        assert texts[-5:] == ["no engine order", *labels]
-        assert other.locator("#sizes .key").all_text_contents() == [
-            "20 rad/s above yield in most revolutions", "5 rad/s above yield in most revolutions",
-            "above yield in some revolutions", "below yield in all judged revolutions",
-        ]  # fmt: skip
-        circle = other.locator("#interaction_map .points path").nth([name for name, _ in marks].index("L<50>")).bounding_box()
-        other.mouse.click(circle["x"] + 0.5 * circle["width"], circle["y"] + 0.5 * circle["height"])
-        other.wait_for_function("document.getElementById('now').textContent.startsWith('L<50>, abradable, 1000.3 rad/s')")
-        assert other.locator("#interactions tr.chosen td.interaction").all_text_contents() == ["1B/3"]
-        other.select_option("#scene", "direct")
-        assert "no interaction was found" in other.text_content("#interaction_map")
-
-
 @pytest.mark.parametrize("width", [390, 1400])
-def test_it_fits_the_screen(page, datasets, ranged, tmp_path, width):
-    """Without scrolling sideways, and with plotly's buttons clear of what is drawn; the table has the range of the peak."""
-    contents = explorer_contents(datasets, ranged)
-    place = "#scene=abradable&quantity=share_of_time_in_contact&all=true&every=true"
+def test_it_fits_the_screen(page, datasets, tmp_path, width):
+    """Without scrolling sideways, and with plotly's buttons clear of what is drawn."""
+    contents = explorer_contents(datasets)
+    place = "#scene=abradable&quantity=share_of_time_in_contact&all=true"
     with beside(page, contents, tmp_path / "explorer.html", (width, 844), place) as other:
         assert other.evaluate("document.documentElement.scrollWidth") <= width
-        titles = other.locator("#interactions th").all_text_contents()
-        at = titles.index("peak speed (rad/s)") + 1
-        ranges = [f"peak speed, {end} (rad/s)" for end in ("5%", "median", "95%")]
-        assert titles[at : at + 4] == [*ranges, "members (%)"]
-        rows = [line.locator("td").all_text_contents()[at : at + 4] for line in other.locator("#interactions tbody tr").all()]
-        assert rows == [["1150", "1200", "1210", "75"], [""] * 4]
-        for name in ("interaction_map", "campbell", "response", "spectrum", "wear", "stress"):
+        for name in ("campbell", "response", "spectrum", "wear", "stress"):
             buttons, plot = (other.locator(f"#{name} {part}").first.bounding_box() for part in (".modebar", ".main-svg"))
             assert buttons["y"] + buttons["height"] <= plot["y"], name
             assert buttons["x"] + buttons["width"] <= width, name
             titles = {button.get_attribute("data-title") for button in other.locator(f"#{name} .modebar-btn").all()}
             assert titles == {"Download plot as a PNG", "Zoom", "Pan", "Reset axes"}
-        assert other.locator("main > section:visible").count() == 7
+        assert other.locator("main > section:visible").count() == 5
         other.select_option("#scene", "direct")
         assert other.locator("main > section:visible h2").all_text_contents()[-1] == "Spectrum"
         # what is there takes the room of what is not
         other.wait_for_function("document.querySelector('#spectrum .main-svg').clientWidth > 0.9 * innerWidth")
 
 
-def test_a_finger_that_moves_over_a_plot_scrolls_the_page(page, datasets, interactions, tmp_path):
+def test_a_finger_that_moves_over_a_plot_scrolls_the_page(page, datasets, tmp_path):
     phone = {"is_mobile": True, "has_touch": True}
-    with beside(page, explorer_contents(datasets, interactions), tmp_path / "explorer.html", (390, 844), **phone) as other:
+    with beside(page, explorer_contents(datasets), tmp_path / "explorer.html", (390, 844), **phone) as other:
         touches = other.context.new_cdp_session(other)
 
         def touch(kind, *heights):
@@ -319,11 +228,11 @@ def test_a_finger_that_moves_over_a_plot_scrolls_the_page(page, datasets, intera
         other.wait_for_function("scrollY > 100")
 
 
-def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(page, datasets, interactions, tmp_path):
+def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(page, datasets, tmp_path):
     campbell = datasets["campbell"].isel(mode=[0] * 9).assign_coords(mode=["1B", "1T", "2B", *map(str, range(4, 10))])
     rising = xr.DataArray(500.0 * np.arange(1, 10), dims="mode") + 0.1 * campbell["speed"]
     campbell["frequency"] = rising.expand_dims(blade=BLADES)
-    contents = explorer_contents(datasets | {"campbell": campbell}, interactions)
+    contents = explorer_contents(datasets | {"campbell": campbell})
     with beside(page, contents, tmp_path / "explorer.html") as other:
         drawn = other.evaluate(
             "() => document.getElementById('campbell').data.slice(1, -1)"
@@ -335,11 +244,11 @@ def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(page, d
         assert len({colour for _, colour in drawn}) == 6
 
 
-def test_engine_orders_end_at_the_border_with_their_numbers(page, datasets, interactions, tmp_path):
+def test_engine_orders_end_at_the_border_with_their_numbers(page, datasets, tmp_path):
     """Also where the diagram is zoomed: each line from border to border, its number where it leaves."""
     campbell = datasets["campbell"].copy(deep=True)
     campbell["frequency"][:] = 600.0
-    contents = explorer_contents(datasets | {"campbell": campbell}, interactions)
+    contents = explorer_contents(datasets | {"campbell": campbell})
     drawn = (
         "() => { const { data } = document.getElementById('campbell');"
         " return [data[0], data.at(-1)].map(({ x, y, text }) => [x, y, text]); }"
@@ -364,11 +273,10 @@ def test_engine_orders_end_at_the_border_with_their_numbers(page, datasets, inte
         assert other.evaluate(drawn)[1][2] == other.evaluate(numbers) == ["1", "2"]
 
 
-def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets, interactions, tmp_path):
+def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets, tmp_path):
     limits = datasets["stress"]["yield_stress"].copy()
     limits[0, 0] = 1e6
-    stressed = interactions.assign(largest_stress_pa=5e8)
-    contents = explorer_contents(datasets | {"stress": datasets["stress"].assign(yield_stress=limits)}, stressed)
+    contents = explorer_contents(datasets | {"stress": datasets["stress"].assign(yield_stress=limits)})
     outside = "above yield: outside the linear model"
     with beside(page, contents, tmp_path / "explorer.html", place="#scene=abradable&speed=1000.25") as other:
         stress = 1e-6 * float(datasets["stress"]["max_von_mises_ever"].sel(blade="Ref", scene="abradable", speed=1000.25))
@@ -379,13 +287,8 @@ def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets
         shapes = other.evaluate("document.getElementById('response').layout.shapes")
         across = [(one["name"], one["y0"]) for one in shapes if one["x1"] == 1]
         assert across == [(outside, 1), ("yield stress", 1)]
-        rows = [line.locator("td").all_text_contents() for line in other.locator("#interactions tbody tr").all()]
-        assert ["500 *" in row for row in rows] == [True]
-        assert outside in other.text_content("#note")
         other.select_option("#scene", "direct")
         assert "yield" not in other.text_content("#now")
-        assert "500" in other.locator("#interactions tbody tr td").all_text_contents()
-        assert other.text_content("#note") == ""
 
 
 def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
@@ -399,24 +302,26 @@ def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
     assert "mm" in page.evaluate("document.getElementById('spectrum').data[0].text[3][1]")
 
 
-def test_figures_of_extensions_are_linked_where_they_belong(page, datasets, interactions, root, tmp_path):
-    """Those of the chosen blade and scene, and those of several; a run without any has no line of them."""
-    assert page.text_content("#figures") == ""
+def test_tables_and_figures_are_linked_where_they_belong(page, datasets, root, tmp_path):
+    """Those of the chosen blade and scene, and those of several; a page without any has no line of them."""
+    assert page.text_content("#links") == ""
     scenes = command_line_document({"abradable": {"rotor": {"blades": 2}, "results": ["stress"]}})
     search = {"blade": "Ref", "variables": {"thickness_percent": [90, 110]}, "objectives": {"direct": {"scenes": ["direct"]}}}
     changes = {"blades": ["Ref", "S50"], "scenes": ["abradable", "direct"], "fidelity": "draft", "search": search}
     settings = load_settings(command_line_document(changes), root, scenes_above=scenes)
-    contents = explorer_contents(datasets, interactions) | {"figures": linked_figures(Sweep(settings))}
+    contents = explorer_contents(datasets) | {"links": links(Sweep(settings))}
     with beside(page, contents, tmp_path / "explorer.html", place="#blade=Ref&scene=abradable&speed=900") as other:
-        links = other.locator("#figures a")
-        files = [f"figures/{name}.png" for name in ("rotor_Ref__abradable", "search_designs")]
-        assert [link.get_attribute("href") for link in links.all()] == files
-        assert links.all_text_contents() == ["rotors: rotor", "search: designs"]
+        found = other.locator("#links a")
+        names = ("interactions", "comparison_abradable", "ranking", "rotor_Ref__abradable", "search_designs")
+        files = ["summary.csv", "ranking.csv", *(f"figures/{name}.png" for name in names)]
+        assert [link.get_attribute("href") for link in found.all()] == files
+        titles = ["summary.csv", "ranking.csv", "interactions", "around an interaction", "ranking"]
+        assert found.all_text_contents() == [*titles, "rotors: rotor", "search: designs"]
         choose(other, scene="direct")
-        assert links.all_text_contents() == ["search: designs"]
+        assert found.all_text_contents() == [*titles, "search: designs"]
 
 
-def test_a_diverged_run_is_marked(page, datasets, interactions, tmp_path):
+def test_a_diverged_run_is_marked(page, datasets, tmp_path):
     """Above all that has a number, by its scene's or its blade's name; in a map, and where every run of a scene is one."""
     for every, name in (("false", "direct diverged"), ("true", "Ref diverged")):
         choose(page, blade="Ref", scene="direct", quantity="rms_normal", speed="1200", unit="rad/s", all=every)
@@ -439,35 +344,33 @@ def test_a_diverged_run_is_marked(page, datasets, interactions, tmp_path):
         ("stress", "max_von_mises_ever"),
     ):
         made[kind][name].loc[everywhere] = np.nan
-    contents = explorer_contents(made, interactions)
+    contents = explorer_contents(made)
     with beside(page, contents, tmp_path / "explorer.html", place="#blade=L%3C50%3E&scene=direct") as other:
         drawn = {one["name"]: one for one in traces(other, "response")}
         assert drawn["direct diverged"]["x"] == SPEEDS.tolist()
 
 
-def test_a_lining_that_is_worn_through_is_marked(page, datasets, interactions, tmp_path):
-    """In the map, in the table, and as a quantity of its own."""
-    depths = {"max_wear_m": [4e-3, np.nan], "sufficient_thickness_m": [5e-3, np.nan]}
-    rows = interactions.assign(worn_through_share=[0.125, np.nan], **depths)
+def test_a_lining_that_is_worn_through_is_marked(page, datasets, tmp_path):
+    """In the map, and as a quantity of its own."""
     place = "#scene=abradable&quantity=worn_through_share"
-    with beside(page, explorer_contents(datasets, rows), tmp_path / "explorer.html", place=place) as other:
+    with beside(page, explorer_contents(datasets), tmp_path / "explorer.html", place=place) as other:
         _, triangles = traces(other, "wear")
         assert (triangles["name"], triangles["x"]) == ("worn through", [1200])
         assert triangles["text"][0].endswith("worn through to the casing on 12.5% of the circumference")
-        cells = other.locator("#interactions tbody tr td").all_text_contents()
-        assert "4 \u2020" in cells and "5 \u2020" in cells and "12.5" in cells
-        note = "\u2020 worn through: the tip has reached the casing behind the lining, and more thickness may be needed"
-        assert other.text_content("#note") == note
         assert "0.125" in other.evaluate("document.getElementById('response').data[0].text[3]")
-        other.select_option("#scene", "direct")
-        assert other.text_content("#note") == ""
 
 
-def test_table_keys_and_clicks_move_the_speed(page):
-    choose(page, blade="L%3C50%3E", scene="direct", speed="900", unit="rad/s", all="false", every="true")
-    page.click("#interactions tbody tr:nth-child(1)")
+def test_keys_and_clicks_move_the_speed(page):
+    """All cursors follow, without drawing the plots again."""
+    choose(page, blade="Ref", scene="abradable", speed="900", unit="rad/s", all="false")
+    places = (
+        "['campbell', 'response', 'spectrum', 'wear'].map(name => "
+        "[...document.querySelectorAll(`#${name} .shapelayer path`)].map(path => path.getAttribute('d')))"
+    )
+    before = page.evaluate(places)
+    page.evaluate("document.getElementById('response').emit('plotly_click', { points: [{ x: 1200 }] })")
+    page.wait_for_function(f"before => {places}.every((of, at) => `${{of}}` !== `${{before[at]}}`)", arg=before)
     assert page.text_content("#now").startswith("Ref, abradable, 1200 rad/s, 11459 rpm")
-    assert "chosen" in page.get_attribute("#interactions tbody tr:nth-child(1)", "class")
     page.locator("h1").click()
     page.keyboard.press("ArrowRight")
     assert page.text_content("#now").startswith("Ref, abradable, 1300 rad/s")
@@ -478,6 +381,80 @@ def test_table_keys_and_clicks_move_the_speed(page):
     assert page.text_content("#now").startswith("Ref, direct, 1200 rad/s")
     page.keyboard.press("u")
     assert page.input_value("#speed") == "11459"
-    page.focus("#interactions tbody tr:nth-child(2)")
-    page.keyboard.press("Enter")
-    assert "1000.3 rad/s" in page.text_content("#now")
+
+
+def judged(*verdicts):
+    """Panel of the requirements with rows: blade, scene, verdict on the length above yield, of which 24 rad/s are allowed."""
+    names = ("blade", "scene", "verdict")
+    numbers = {"requirement": "above_yield", "limit": 24.0, "value": 1.0, "margin": 1.0, "unit": "rad/s"}
+    numbers |= {"certainty": "", "note": "", "from_rad_s": None, "to_rad_s": None}
+    rows = [dict(zip(names, row, strict=True)) | numbers for row in verdicts]
+    return {"requirements": {"pairs": [], "requirements": rows}}
+
+
+def test_the_map_of_designs_has_the_line_of_a_requirement(page, datasets, tmp_path):
+    """Round the design that does not fail it, which has a mark; a step in speed leaves the line where it is."""
+    keys = ["scene.casing.clearance_m", "scene.lining.thickness_m"]
+    places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
+    designs = pd.DataFrame([("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)])
+    table = designs.set_axis(["blade", "scene", "family", *keys], axis=1).assign(
+        length_most_revolutions_rad_s=[40.0, 30, 20, 0], share_of_revolutions_above_yield=[0.9, 0.8, 0.7, 0.1]
+    )
+    verdicts = [("Ref", f"Room_{number}", verdict) for number, verdict in enumerate(("fails", "fails", "fails", "meets"))]
+    contents = explorer_contents(datasets) | {"panels": {"designs": design_panel(table)} | judged(*verdicts)}
+    parts = page_parts([STUDIES / f"{name}/panel.js" for name in ("designs", "requirements")])
+    with beside(page, contents, tmp_path / "explorer.html", place="#blade=Ref&scene=abradable&speed=900", parts=parts) as other:
+        map_ = "document.getElementById('designs')"
+        sides = f"{map_}.layout.shapes.map(one => [one.x0, one.y0, one.x1, one.y1])"
+        assert sorted(other.evaluate(sides)) == [[0.5, 0.5, 0.5, 1.5], [0.5, 0.5, 1.5, 0.5]]
+        assert other.evaluate(f"{map_}.data[0].text") == [["40", "20"], ["30", "0 \u25c7 \u2713"]]
+        assert "limit of above yield" in other.text_content("#designs .legend")
+        other.locator("h1").click()
+        other.keyboard.press("ArrowRight")
+        assert "1000.3 rad/s" in other.text_content("#now")
+        assert [0.5, 0.5, 0.5, 1.5] in other.evaluate(sides)
+
+
+def test_the_reason_of_a_verdict_stands_on_a_phone(page, datasets, tmp_path):
+    panel = judged(("Ref", "abradable", "fails"))
+    panel["requirements"]["pairs"] = [{"blade": "Ref", "scene": "abradable", "verdict": "fails", "reason": "too long " * 12}]
+    contents = explorer_contents(datasets) | {"panels": panel}
+    parts = page_parts([STUDIES / "requirements/panel.js"])
+    with beside(page, contents, tmp_path / "explorer.html", (390, 844), parts=parts) as other:
+        reason = other.locator("#verdict td:last-child").bounding_box()
+        assert reason["x"] + reason["width"] <= 390
+        other.locator("#verdict button").click()
+        assert other.locator("#verdict tr.chosen").count() == 1
+
+
+def test_a_finger_has_room(page, datasets, tmp_path):
+    """On a phone: nothing runs over the side, and controls are large enough."""
+    phone = {"is_mobile": True, "has_touch": True}
+    with beside(page, explorer_contents(datasets), tmp_path / "explorer.html", (390, 844), **phone) as other:
+        assert other.evaluate("document.documentElement.scrollWidth") == 390
+        assert min(one.bounding_box()["height"] for one in other.locator("#controls label:visible").all()) >= 44
+
+
+def brightness(colour):
+    """Relative luminance of rgb(...), 0 to 1."""
+    values = [int(value) / 255 for value in colour.removeprefix("rgb(").rstrip(")").split(",")[:3]]
+    linear = [value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in values]
+    return float(np.dot([0.2126, 0.7152, 0.0722], linear))
+
+
+def test_it_is_dark_where_that_is_preferred(page, datasets, tmp_path):
+    """Page and plots, with contrast; and changes with the preference."""
+    contents = explorer_contents(datasets)
+    with beside(page, contents, tmp_path / "explorer.html", color_scheme="dark") as other:
+        styles = "[...document.querySelectorAll(place)].map(one => getComputedStyle(one)[name])"
+
+        def of(place, name):
+            return [brightness(one) for one in other.evaluate(f"([place, name]) => {styles}", [place, name])]
+
+        backgrounds = of("html, header, .main-svg:first-child", "backgroundColor")
+        texts = of("#now, footer", "color") + of(".plot .xtick text, .plot .ytick text, .plot .g-ytitle text", "fill")
+        assert len(texts) > 20
+        assert (min(texts) + 0.05) / (max(backgrounds) + 0.05) > 4.5
+        other.emulate_media(color_scheme="light")
+        other.wait_for_function("document.getElementById('campbell').layout.paper_bgcolor === '#ffffff'")
+        assert min(of("html, .main-svg:first-child", "backgroundColor")) == pytest.approx(1.0)

@@ -21,10 +21,10 @@ from r37core.config.spread import SpreadEntry
 from r37core.figures import style
 from r37core.product.extensions import read_settings
 from r37core.product.remarks import remarks as remarks_of
-from r37core.results.columns import ENDS, INTERACTIONS, names
+from r37core.results.columns import INTERACTIONS, names
 from r37core.results.danger import danger_of, ratio_to_yield
 from r37core.results.interactions import find_interactions
-from r37core.results.ranges import as_ranges_bear, ranged_summary, read_ranges
+from r37core.results.ranges import ranged_summary, read_ranges
 from r37core.time_integration.status import RunStatus
 from r37studies.member_values import sobol_points
 from r37studies.tolerances.dataset import tolerances_dataset
@@ -437,20 +437,6 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path, blade):
     assert joined["peak_speed_rad_s_median"].dropna().tolist() == [1710.0]
     joined = ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), table)
     assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
-
-
-def test_a_range_has_the_digits_that_it_bears():
-    row = {"peak_speed_rad_s": 1729.0, "largest_stress_pa": 1.407e10, "drop": 0.123456}
-    ends = {"peak_speed_rad_s": (1710.0, 1726.0, 1754.0), "largest_stress_pa": (2.02e9, 8.64e9, 1.408e10)}
-    row |= {f"{name}_{end}": value for name, of in ends.items() for end, value in zip(ENDS, of, strict=True)}
-    bare = dict.fromkeys(row) | {"peak_speed_rad_s": 1640.4, "largest_stress_pa": 3.5612e9}
-    shown, other = as_ranges_bear(pd.DataFrame([row, bare]).astype(float)).to_dict("records")
-    # the nominal peak is a run that can be opened
-    assert [shown[f"peak_speed_rad_s{end}"] for end in ("", "_low", "_median", "_high")] == [1729.0, 1710.0, 1730.0, 1750.0]
-    assert [shown[f"largest_stress_pa{end}"] for end in ("", "_low", "_median", "_high")] == [1.4e10, 2e9, 9e9, 1.4e10]
-    assert shown["drop"] == 0.123456 and (other["largest_stress_pa"], other["peak_speed_rad_s"]) == (3.5612e9, 1640.4)
-    without = pd.DataFrame([{"peak_speed_rad_s": 1729.0}])
-    pd.testing.assert_frame_equal(as_ranges_bear(without), without)
 
 
 @pytest.mark.parametrize("text", ["", "blade,scene\n", "a\0b", "blade,scene,mode,engine_order\nRef,lined,1B,x\n"])

@@ -12,7 +12,7 @@ _WITHOUT_GRAPHICS_CARD = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-
 
 
 def picture(input: Any, output: Any, params: Any) -> None:
-    """Picture of the first screen, at the interaction that the page opens at, and the contents without spectra.
+    """Picture of the first screen, at the run that the page opens at, and the contents without spectra.
 
     Input: page. Outputs: picture, contents. Raises InputFileError without Chromium.
     """

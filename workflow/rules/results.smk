@@ -99,8 +99,6 @@ use rule step as explorer with:
         **{name: panel.table for name, panel in shown_panels.items()},
         **further_runs,
         campbell=rules.campbell_of_all.output[0],
-        summary=rules.summary.output[0],
-        ranking=rules.ranking.output[0],
     output:
         page=shown("<results>/explorer.html", TEXTS / "explorer.rst", TOGETHER, "explorer"),
     log:
@@ -113,5 +111,5 @@ use rule step as explorer with:
         programs=programs,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         operating=operating,
-        figures=linked_figures(sweep),
+        links=links(sweep),
         parts=parts_hash(page_parts(programs)),

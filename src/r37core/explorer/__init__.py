@@ -10,7 +10,7 @@ from r37core.base.io import atomic_write
 
 FOLDER = Path(__file__).parent
 
-_PROGRAMS = ("theme", "words", "ranking", "interactions", "interaction_map", "panels", "explorer")
+_PROGRAMS = ("theme", "panels", "explorer")
 
 PARTS = (FOLDER / "explorer.html", FOLDER / "explorer.css", *(FOLDER / f"{name}.js" for name in _PROGRAMS))
 """Files of the page apart from its data and plotly: page, style, and its program in the order it runs."""

@@ -2,20 +2,14 @@
 
 import base64
 import gzip
-from collections.abc import Iterable, Mapping, Sequence
-from operator import attrgetter
+from collections.abc import Mapping
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 
 from r37core.base.units import shown_unit
 from r37core.figures.style import ABOVE_YIELD, OUTSIDE, is_linear
-from r37core.results.closing import interaction_title
-from r37core.results.columns import RANKING, SUMMARY, Column, column_named
-from r37core.results.interactions import sized
 from r37core.results.operating_range import OperatingRange
-from r37core.results.ranges import as_ranges_bear
 from r37core.results.variables import VARIABLES
 
 CURVES = (
@@ -42,15 +36,10 @@ ORDERS_PER_STEP = 0.1
 """Width of a spectrum's bins in engine orders; a bin has the largest amplitude in it."""
 
 
-def explorer_contents(
-    datasets: Mapping[str, xr.Dataset],
-    interactions: pd.DataFrame,
-    ranking: pd.DataFrame | None = None,
-    operating: OperatingRange | None = None,
-) -> dict[str, object]:
+def explorer_contents(datasets: Mapping[str, xr.Dataset], operating: OperatingRange | None = None) -> dict[str, object]:
     """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress and wear.
 
-    `ranking`: the blades of each scene compared, as ranking.csv has them. `operating`: speeds that are shaded.
+    `operating`: speeds that are shaded.
     Curves have every speed; maps are thinned, each cell the largest value of what it stands for.
     """
     rms, campbell = datasets["rms"], datasets["campbell"]
@@ -67,8 +56,6 @@ def explorer_contents(
         **_stress(datasets.get("stress"), rms),
         "spectrum": _spectrum(datasets["spectrum"], rms) if "spectrum" in datasets else None,
         "wear": _wear(datasets["wear"], rms) if "wear" in datasets else None,
-        **interaction_table(sized(as_ranges_bear(interactions), rms)),
-        **ranking_rows(ranking),
         "operating": [operating.first, operating.last] if operating else None,
     }
 
@@ -176,56 +163,3 @@ def order_bins(orders: np.ndarray) -> np.ndarray:
     """Where bins of ORDERS_PER_STEP begin, each centred on a multiple of it; `orders`, shape (orders,), ascend from 0."""
     bins = np.floor(orders / ORDERS_PER_STEP + 0.5 + 1e-9)
     return np.flatnonzero(np.diff(bins, prepend=-1.0) > 0.0)
-
-
-INTERACTION = Column(
-    "interaction",
-    "mode or two modes, and engine order, that meet there: 1B/4, 7-5/6, 5+7/26; without a crossing the strongest order",
-)
-
-COLUMNS = [
-    INTERACTION.name,
-    *(
-        name
-        for column in sorted(SUMMARY, key=attrgetter("place"))
-        if column.place
-        for name in (column.name, *(column.range_names if column.name == "peak_speed_rad_s" else ()))
-    ),
-]
-"""Columns of the table of interactions, in this order; those that summary.csv does not have are left out."""
-
-MAIN = (
-    "interaction", "blade", "scene", "peak_speed_rad_s", "shift_rad_s", "peak_rms_normal_m", "length_most_revolutions_rad_s",
-    "length_some_revolutions_rad_s", "length_ever_rad_s", "share_of_revolutions_above_yield", "largest_median_stress_pa",
-    "largest_stress_pa", "largest_stress_over_yield", "largest_goodman_share", "max_wear_m", "worn_through_share",
-    "motion_at_end", "share_of_members", "status",
-)  # fmt: skip
-"""Columns that are shown unless all are asked for: as many as a screen has room for."""
-
-
-def interaction_table(interactions: pd.DataFrame) -> dict[str, object]:
-    """`interactions`, rows as in summary.csv with their title, and `columns`, of which those of no `detail` are shown first."""
-    table = interactions.astype(object).where(interactions.notna(), None)
-    titles = [interaction_title(*row) for row in table[["mode", "engine_order"]].values]
-    table = table.assign(interaction=titles)
-    columns = _columns([name for name in COLUMNS if name in table], (INTERACTION, *SUMMARY))
-    return {
-        "interactions": table.to_dict("records"),
-        "columns": [column | {"detail": column["name"] not in MAIN} for column in columns],
-    }
-
-
-def ranking_rows(ranking: pd.DataFrame | None) -> dict[str, object]:
-    """`ranking`, its rows or None with lengths in whole rad/s, and `ranking_columns`, those of them that are declared."""
-    if ranking is None or ranking.empty:
-        return {"ranking": None, "ranking_columns": []}
-    ranking = ranking.round({name: 0 for name in ranking if name.startswith(("length_", "widest_")) and "scatter" not in name})
-    rows = ranking.astype(object).where(ranking.notna(), None).to_dict("records")
-    return {"ranking": rows, "ranking_columns": _columns(ranking.columns, RANKING)}
-
-
-def _columns(names: Iterable[str], columns: Sequence[Column]) -> list[dict[str, object]]:
-    """Title, meaning, unit and digits of the columns, for heads and cells of a table; of `names` that are declared."""
-    known = {name: column for name in names if (column := column_named(name, columns))}
-    attributes = ("title", "meaning", "unit", "factor", "digits")
-    return [{"name": name} | {key: getattr(column, key) for key in attributes} for name, column in known.items()]

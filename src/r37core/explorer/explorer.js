@@ -60,8 +60,8 @@
   const maps = await unpackAll({ spectrum: data.spectrum, wear: data.wear });
 
   // and what they are where the address does not say
-  const SWITCHES = { all: false, every: false, columns: false };
-  const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", sort: "", ...SWITCHES };
+  const SWITCHES = { all: false };
+  const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", ...SWITCHES };
 
   const bladeIndex = () => data.blades.indexOf(state.blade);
   const sceneIndex = () => data.scenes.indexOf(state.scene);
@@ -197,15 +197,12 @@
   // the archive of Snakemake's report has each file in a folder of its own, and lists the figures itself
   const IN_REPORT = /\/data\/raw\/[0-9a-f]+\/[^/]+$/.test(window.location.pathname);
 
-  // figures of extensions: those of the chosen blade and scene, and those of several
-  function drawFigures() {
+  // tables and figures: those of the chosen blade and scene, and those of several
+  function drawLinks() {
     const isHere = ({ blade = state.blade, scene = state.scene }) => !IN_REPORT && blade === state.blade && scene === state.scene;
-    const links = (data.figures ?? []).filter(isHere).flatMap(({ extension, label, file }) => [
-      Object.assign(document.createElement("a"), {
-        href: `figures/${encodeURIComponent(file)}`, textContent: `${extension.replaceAll("_", " ")}: ${label}`,
-      }), " ",
-    ]);
-    document.getElementById("figures").replaceChildren(...(links.length ? ["Further figures: ", ...links] : []));
+    const links = (data.links ?? []).filter(isHere)
+      .flatMap(({ label, file }) => [Object.assign(document.createElement("a"), { href: encodeURI(file), textContent: label }), " "]);
+    document.getElementById("links").replaceChildren(...(links.length ? ["Tables and figures: ", ...links] : []));
   }
 
   function drawCampbell() {
@@ -396,44 +393,10 @@
     draw("stress", traces, plan, false);
   }
 
-  const STRESSES = ["largest_stress_pa", "largest_high_stress_pa", "largest_median_stress_pa"];
-  const outside = (row, name) => 1e-6 * row[name] > yieldStress?.row(data.blades.indexOf(row.blade))[data.scenes.indexOf(row.scene)];
-  // a cell of a table: in the unit that its head has
-  function valueText(row, { name, unit, factor: toUnit, digits: count }) {
-    const value = row[name] ?? "";
-    if (typeof value !== "number") return String(value);
-    return digits(value * (unit === "rad/s" ? factor() : toUnit), count);
-  }
-  // rows of the verdict, of a run with requirements
-  const requirements = data.panels?.requirements?.requirements ?? [];
-  const page = {
-    state, set, valueText, requirements,
-    mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : "") + (["max_wear_m", "sufficient_thickness_m"].includes(name) && row.worn_through_share > 0 ? " \u2020" : ""),
-  };
-
-  function drawTable() {
-    const rows = drawInteractions(data, page);
-    const notes = [
-      rows.some((row) => STRESSES.some((name) => outside(row, name))) && `* ${OUTSIDE}, a flag and no prediction`,
-      rows.some((row) => row.worn_through_share > 0) && "\u2020 worn through: the tip has reached the casing behind the lining, and more thickness may be needed",
-    ];
-    document.getElementById("note").textContent = notes.filter(Boolean).join("; ");
-  }
-
-  // the stress of the chosen interaction, which is not that of its peak speed alone
-  function interactionText() {
-    const chosen = data.interactions.find(
-      (row) => row.blade === state.blade && row.scene === state.scene && row.peak_speed_rad_s === state.speed,
-    );
-    const { largest_stress_pa: stress, largest_stress_speed_rad_s: speed } = chosen ?? {};
-    if (!Number.isFinite(stress) || !Number.isFinite(speed) || speed === state.speed) return "";
-    return `; interaction ${chosen.interaction}: largest stress ${digits(1e-6 * stress)} MPa at ${speedText(speed)}`;
-  }
-
   function drawNow() {
     const curve = curves.find((one) => one.name === state.quantity);
     const text = pointText(curve, bladeIndex(), sceneIndex(), nearest(state.speed)).replaceAll("<br>", ", ");
-    document.getElementById("now").textContent = text + interactionText();
+    document.getElementById("now").textContent = text;
     for (const name of ["blade", "scene", "quantity", "unit"]) document.getElementById(name).value = state[name];
     document.getElementById("speed").value = digits(state.speed * factor());
     for (const name of Object.keys(SWITCHES)) document.getElementById(name).checked = state[name];
@@ -456,15 +419,16 @@
       }],
     }), ["blade", "scene", "unit"]],
     stress: [drawStress, ["blade", "scene", "speed"]],
-    figures: [drawFigures, ["blade", "scene"]],
+    links: [drawLinks, ["blade", "scene"]],
   };
   const drawn = {};
 
   // panels of extensions, tables that decide first and the others below: hidden where they have nothing to show, and not named as missing
   const offered = {
-    state, set, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, requirements, MAGMA, muted: () => theme.colour("muted"),
+    state, set, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
+    // rows of the verdict, of a run with requirements
+    requirements: data.panels?.requirements?.requirements ?? [],
   };
-  DRAWINGS.interaction_map = [interactionMap(data, { ...offered, campbell, orderTraces, followView }), ["blade", "scene", "unit"]];
   for (const [extension, contents] of Object.entries(data.panels ?? {})) {
     for (const [name, panel] of Object.entries(panels[extension](await unpackAll(contents), offered))) {
       const section = Object.assign(document.createElement("section"), { className: panel.first ? "wide" : "" });
@@ -499,8 +463,6 @@
       }
     }
     drawMissing();
-    drawRanking(data, page);
-    drawTable();
     drawNow();
   }
 
@@ -527,7 +489,6 @@
     b: () => set({ blade: next(data.blades, state.blade, 1) }), B: () => set({ blade: next(data.blades, state.blade, -1) }),
     s: () => set({ scene: next(data.scenes, state.scene, 1) }), u: () => set({ unit: state.unit === "rpm" ? "rad/s" : "rpm" }),
     q: () => set({ quantity: next(curves.map((one) => one.name), state.quantity, 1) }), a: () => set({ all: !state.all }),
-    i: () => set({ every: !state.every }),
   };
 
   function listen() {
@@ -555,25 +516,16 @@
     theme.onChange(drawAll);
   }
 
-  // the worst run of all blades and scenes: one that diverged, else the largest stress, or motion where there is no stress
+  // what the page opens at, the worst run of all blades and scenes: one that diverged, else the largest stress, or motion without stress
   function worstRun() {
     const loads = ["max_von_mises_ever", "rms_normal"].map((name) => curves.find((curve) => curve.name === name)).filter(Boolean);
-    let worst = { load: [] };
+    let [most, worst] = [[], { speed: speeds[0] }];
     data.blades.forEach((blade, row) => data.scenes.forEach((scene, column) => ran(row, column).forEach((at) => {
-      const diverged = status.row(row, column)[at] === DIVERGED;
-      const load = [diverged ? 1 : 0, ...loads.map((curve) => curve.values.row(row, column)[at])].map((value) => (Number.isFinite(value) ? value : 0));
-      const differs = load.findIndex((value, number) => value !== (worst.load[number] ?? -1));
-      if (differs >= 0 && load[differs] > (worst.load[differs] ?? -1)) worst = { load, blade, scene, speed: speeds[at], diverged };
+      const load = [Number(status.row(row, column)[at] === DIVERGED), ...loads.map((curve) => curve.values.row(row, column)[at])].map((value) => (Number.isFinite(value) ? value : 0));
+      const differs = load.findIndex((value, number) => value !== (most[number] ?? -1));
+      if (differs >= 0 && load[differs] > (most[differs] ?? -1)) [most, worst] = [load, { blade, scene, speed: speeds[at] }];
     })));
     return worst;
-  }
-
-  // what the page opens at: the worst run if it diverged, else the peak of the interaction next to it
-  function strongest() {
-    const { blade, scene, speed, diverged } = worstRun();
-    if (blade === undefined) return { speed: speeds[0] };
-    const peaks = data.interactions.filter((row) => row.blade === blade && row.scene === scene && !diverged).map((row) => row.peak_speed_rad_s);
-    return { blade, scene, speed: peaks.reduce((near, peak) => (Math.abs(peak - speed) < Math.abs(near - speed) ? peak : near), peaks[0] ?? speed) };
   }
 
   // what the address asks for, as far as the data have it
@@ -583,7 +535,6 @@
     const wanted = {};
     for (const [name, values] of Object.entries(known)) if (values.includes(told[name])) wanted[name] = told[name];
     if (Number.isFinite(Number.parseFloat(told.speed))) wanted.speed = Number.parseFloat(told.speed);
-    if (told.sort === "" || data.columns.some(({ name }) => name === told.sort?.replace(/^-/, ""))) wanted.sort = told.sort;
     for (const [name, usual] of Object.entries(SWITCHES)) wanted[name] = name in told ? told[name] === "true" : usual;
     return wanted;
   }
@@ -592,6 +543,6 @@
   document.getElementById("about").append(` ${about}. Maps show the largest amplitude within 0.1 engine orders, and the largest`
     + " wear within two degrees; beyond 400 speeds neighbours are joined. Curves have every speed.");
   listen();
-  set({ ...strongest(), ...fromAddress() });
+  set({ ...worstRun(), ...fromAddress() });
   document.documentElement.dataset.ready = PLOTS.join(" ");
 })();

@@ -8,7 +8,6 @@ from r37core.base.io import function_named
 from r37core.base.plain import from_plain
 from r37core.results.datasets import FURTHER_RUNS, with_further_runs
 from r37core.results.operating_range import OperatingRange
-from r37core.results.ranking import read_ranking
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
 
@@ -17,9 +16,9 @@ from .contents import explorer_contents
 
 
 def explorer(input: Any, output: Any, params: Any) -> None:
-    """One page to look at all results. Inputs: datasets by kind and, if there, further runs, summary, ranking. Output: page.
+    """One page to look at all results. Inputs: datasets by kind, further runs if there, tables of panels. Output: page.
 
-    Params: title, figures (of extensions, linked), operating (the range, or None); panels: extension -> function that gives
+    Params: title, links (tables and figures), operating (the range, or None); panels: extension -> function that gives
     what its panels show of the tables of all, by the names of their files; programs: files that draw them.
     """
     files = dict(input.items())
@@ -29,7 +28,6 @@ def explorer(input: Any, output: Any, params: Any) -> None:
         name: function(**{each: tables[each] for each in signature(function).parameters if each in tables})
         for name, function in functions.items()
     }
-    interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_judged(file) for kind, file in files.items()}
     further = datasets.pop(FURTHER_RUNS, None)
     # maps of wear and casing have no speeds of their own
@@ -37,5 +35,5 @@ def explorer(input: Any, output: Any, params: Any) -> None:
         kind: with_further_runs(kind, datasets[kind], further) for kind in ("rms", "stress", "fatigue") if kind in files
     }
     operating = params.operating and from_plain(OperatingRange, params.operating)
-    contents = explorer_contents(datasets, interactions, ranking, operating) | {"panels": panels, "figures": params.figures}
+    contents = explorer_contents(datasets, operating) | {"panels": panels, "links": params.links}
     write_page(contents, params.title, output.page, page_parts(params.programs))

@@ -43,12 +43,21 @@ def offered(what: Offer, sweep: Sweep) -> dict[str, str]:
     return {what: files[0]} if files else {}
 
 
-def linked_figures(sweep: Sweep) -> list[dict[str, str]]:
-    """Figures of the extensions that the explorer links: extension, label, file in figures/, and blade and scene if of one."""
-    figures = ((each.name, figure) for each in EXTENSIONS if not each.made_on_request for figure in each.figures)
-    return [
-        {"extension": name, "label": figure.label.format(**run), **run, "file": f"{figure.name.format(**run)}.png"}
-        for name, figure in figures
+def links(sweep: Sweep) -> list[dict[str, str]]:
+    """Files that the explorer links: label, file, and blade and scene if of one.
+
+    They are the tables of all blades, the pipeline's figures of several blades and those of extensions.
+    """
+    figures = [("", figure) for figure in PIPELINE if "{blade}" not in figure.name]
+    figures += [
+        (f"{each.name.replace('_', ' ')}: ", figure)
+        for each in EXTENSIONS
+        if not each.made_on_request
+        for figure in each.figures
+    ]
+    return [{"label": table, "file": table} for table in ("summary.csv", "ranking.csv")] + [
+        {"label": begin + figure.label.format(**run), **run, "file": f"figures/{figure.name.format(**run)}.png"}
+        for begin, figure in figures
         for run in figure.runs(sweep)
     ]
 

@@ -1,4 +1,4 @@
-"""Columns of summary.csv and ranking.csv, each declared once: the tables, columns.csv of the pages and the explorer follow.
+"""Columns of summary.csv and ranking.csv, each declared once: the tables and columns.csv of the pages follow.
 
 Light: the configuration imports it.
 """
@@ -36,14 +36,13 @@ IN_REGION = "length_most_revolutions_{}_rad_s"
 class Column:
     """Column of a table: its `name`, which ends with its SI unit, and its `meaning`; `words`: title that is not the name.
 
-    `place`: order in the explorer's table of interactions, 0 for one that is not there; `percent`: whether a share is shown in
-    percent; `scatter`: whether its standard deviation by chance follows it; `minimised`: whether searches can minimise it.
+    `percent`: whether a share is shown in percent; `scatter`: whether its standard deviation by chance follows it;
+    `minimised`: whether searches can minimise it.
     """
 
     name: str
     meaning: str
     words: str = ""
-    place: int = 0
     percent: bool = False
     scatter: bool = False
     minimised: bool = False
@@ -62,11 +61,6 @@ class Column:
     def factor(self) -> float:
         """Factor from the SI unit to the shown one."""
         return 100.0 if self.percent else shown_unit(unit_of(self.name))[1]
-
-    @property
-    def digits(self) -> int:
-        """Digits with which the explorer shows values."""
-        return 5 if "speed" in self.name else 4
 
     @property
     def measure(self) -> str:
@@ -104,11 +98,9 @@ _MOST, _SOME = "above yield in most revolutions", "above yield in some revolutio
 _LOST = f"share of the amplitude lost within {DROP_WITHIN:g} rad/s above the peak"
 
 LENGTHS = (
-    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, 130, minimised=True),
-    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}", _SOME, 132, minimised=True),
-    Column(
-        "length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", "ever above yield", 134
-    ),
+    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, minimised=True),
+    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}", _SOME, minimised=True),
+    Column("length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", "ever above yield"),
 )
 """How long a range of speeds is above yield (results.exceedance)."""
 
@@ -118,66 +110,58 @@ DANGER = (
         "share_of_revolutions_above_yield",
         f"largest share, at any of the speeds, of the {_REVOLUTIONS} that exceed yield",
         "revolutions above yield",
-        136,
         percent=True,
     ),
-    Column("largest_median_stress_pa", f"largest median {_STRESS}", "median stress", 140, minimised=True),
+    Column("largest_median_stress_pa", f"largest median {_STRESS}", "median stress", minimised=True),
     Column("largest_high_stress_pa", f"largest 90% quantile {_STRESS}", "high stress"),
-    Column("largest_stress_pa", f"largest {_STRESS}", "largest stress", 150),
-    Column("largest_stress_over_yield", "largest stress over the yield stress", "times yield", 155),
-    Column("largest_stress_speed_rad_s", "speed of the largest stress", "at speed", 160),
-    Column("largest_goodman_share", "largest share of the Goodman line", "Goodman share", 170, minimised=True),
+    Column("largest_stress_pa", f"largest {_STRESS}", "largest stress"),
+    Column("largest_stress_over_yield", "largest stress over the yield stress", "times yield"),
+    Column("largest_stress_speed_rad_s", "speed of the largest stress", "at speed"),
+    Column("largest_goodman_share", "largest share of the Goodman line", "Goodman share", minimised=True),
 )
 """How dangerous a range of speeds is, the same for interactions, blades, designs and members (results.danger)."""
 
 INTERACTIONS = (
-    Column("blade", "name of the blade", place=10),
-    Column("scene", "name of the scene", place=20),
+    Column("blade", "name of the blade"),
+    Column("scene", "name of the scene"),
     Column("mode", "mode of the crossing that explains the peak, 1B, or combination of two, 7-5 or 5+7; empty without one"),
     Column("engine_order", "engine order that the mode, difference or sum crosses, or else the strongest one"),
-    Column("direction", "direction of the peak: normal to the casing, tangential or both", place=30),
-    Column("campbell_speed_rad_s", "speed of that crossing in the Campbell diagram", "Campbell speed", place=40),
-    Column("peak_speed_rad_s", "speed at which the leading edge moves most", place=50),
-    Column("shift_rad_s", "peak speed minus Campbell speed", place=70),
-    Column("peak_rms_normal_m", "rms normal to the casing at the peak speed", "normal rms", place=80),
+    Column("direction", "direction of the peak: normal to the casing, tangential or both"),
+    Column("campbell_speed_rad_s", "speed of that crossing in the Campbell diagram", "Campbell speed"),
+    Column("peak_speed_rad_s", "speed at which the leading edge moves most"),
+    Column("shift_rad_s", "peak speed minus Campbell speed"),
+    Column("peak_rms_normal_m", "rms normal to the casing at the peak speed", "normal rms"),
     Column("peak_rms_tangential_m", "tangential rms at the peak speed", "tangential rms"),
-    Column("drop", _LOST, "amplitude lost above the peak", place=90, percent=True),
+    Column("drop", _LOST, "amplitude lost above the peak", percent=True),
     *DANGER,
-    Column("max_von_mises_span", "span of the largest stress", "span", place=162),
-    Column("max_von_mises_chord", "chord of the largest stress", "chord", place=164),
-    Column("max_von_mises_side", "side of the largest stress", "side", place=166),
+    Column("max_von_mises_span", "span of the largest stress", "span"),
+    Column("max_von_mises_chord", "chord of the largest stress", "chord"),
+    Column("max_von_mises_side", "side of the largest stress", "side"),
     Column("stress_region", "part of the blade where stress is evaluated"),
-    Column("max_wear_m", "largest wear of the lining", "largest wear", place=180),
+    Column("max_wear_m", "largest wear of the lining", "largest wear"),
     Column(
         "worn_through_share",
         "largest share of the circumference where the tip has reached the casing behind the lining",
         "worn through",
-        place=190,
         percent=True,
     ),
     Column(
         "sufficient_thickness_m",
         "lining thickness that the interaction uses, elastic part included, where it wears; a lower bound where a run is worn "
         "through or diverged",
-        place=200,
     ),
-    Column("largest_penetration_m", "largest penetration of the tip's edge into the casing (behind a lining)", place=270),
-    Column("status", "`completed`, or `diverged` if any run of the interaction did", place=280),
+    Column("largest_penetration_m", "largest penetration of the tip's edge into the casing (behind a lining)"),
+    Column("status", "`completed`, or `diverged` if any run of the interaction did"),
     Column(
         "motion_at_end",
         "at the peak speed: `growing`, `lasting`, `cut_free` (has decayed or lost contact) or `quiet` (within the clearance)",
         "motion at the end",
-        place=210,
     ),
     Column(
-        "lasting_share",
-        "share of the interaction's speeds whose motion lasts or grows at the end",
-        "lasting",
-        place=220,
-        percent=True,
+        "lasting_share", "share of the interaction's speeds whose motion lasts or grows at the end", "lasting", percent=True
     ),
-    Column("some_revolutions_from_rad_s", f"lowest speed at which {_IN_SOME}", f"{_SOME} from", place=110, scatter=True),
-    Column("some_revolutions_to_rad_s", f"highest speed at which {_IN_SOME}", f"{_SOME} to", place=120, scatter=True),
+    Column("some_revolutions_from_rad_s", f"lowest speed at which {_IN_SOME}", f"{_SOME} from", scatter=True),
+    Column("some_revolutions_to_rad_s", f"highest speed at which {_IN_SOME}", f"{_SOME} to", scatter=True),
     Column("most_revolutions_from_rad_s", f"lowest speed at which {_IN_MOST}", f"{_MOST} from", scatter=True),
     Column("most_revolutions_to_rad_s", f"highest speed at which {_IN_MOST}", f"{_MOST} to", scatter=True),
     Column("peak_motion_m", "normal and tangential rms together, at the peak speed", "rms, both directions", scatter=True),
@@ -195,16 +179,16 @@ RANGED = tuple(column for name in _WITH_RANGE for column in INTERACTIONS if colu
 """Columns to which tolerances add a range over the members."""
 
 MEMBERS_SHOWING = (
-    Column("share_of_members", "share of the members that show the interaction", "members", place=60, percent=True),
+    Column("share_of_members", "share of the members that show the interaction", "members", percent=True),
     Column("robust", "whether at least half of the members show it"),
 )
 """Columns that tolerances add to summary.csv, before the ranges of RANGED."""
 
 SECOND_MOTIONS = (
-    Column("second_motion", "motion, carried `up` or `down`, that is most above that from rest", place=230),
-    Column("second_motion_speed_rad_s", "speed of the second motion", "speed of the second motion", place=240),
-    Column("second_motion_rms_normal_m", "normal rms of the second motion", "normal rms of the second motion", place=250),
-    Column("second_motion_rest_rms_normal_m", "normal rms from rest at that speed", "normal rms from rest there", place=260),
+    Column("second_motion", "motion, carried `up` or `down`, that is most above that from rest"),
+    Column("second_motion_speed_rad_s", "speed of the second motion", "speed of the second motion"),
+    Column("second_motion_rms_normal_m", "normal rms of the second motion", "normal rms of the second motion"),
+    Column("second_motion_rest_rms_normal_m", "normal rms from rest at that speed", "normal rms from rest there"),
 )
 """Columns that second motions add to summary.csv."""
 

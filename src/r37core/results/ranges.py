@@ -2,11 +2,9 @@
 
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
 from r37core.base.io import readable
-from r37core.base.rounding import rounded_to
 
 from .columns import MEMBERS_SHOWING, RANGED, names
 from .table_file import read_table
@@ -26,20 +24,6 @@ def read_ranges(file: Path | str) -> pd.DataFrame:
         kinds = {"engine_order": "Int64", "robust": bool, **dict.fromkeys(_WITH_RANGES, float)}
         # what no crossing explains has no mode
         return table.fillna({"mode": ""}).astype(kinds)
-
-
-def as_ranges_bear(summary: pd.DataFrame) -> pd.DataFrame:
-    """The summary with as many digits of what has a range as its width bears, but for the nominal peaks, which are runs."""
-    table = summary.copy()
-    for column in RANGED:
-        low, _, high = column.range_names
-        if low in table:
-            rows = table[low].notna() & table[high].notna()
-            spread = table.loc[rows, high] - table.loc[rows, low]
-            for name in {column.name, *column.range_names} - {"peak_speed_rad_s"}:
-                values = zip(table.loc[rows, name], spread, strict=True)
-                table.loc[rows, name] = [float(rounded_to(value, width) or np.nan) for value, width in values]
-    return table
 
 
 def ranged_summary(summary: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
