@@ -11,13 +11,12 @@ from r37core.fem.orientation import Orientation
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.rom import reduction_choice
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37imports.importing import source
-from r37imports.importing.source import Where
 
-__all__ = ["Casing", "Friction", "IntegrationChoice", "InteractionChoice", "Lining", "Orientation", "Where"]
+__all__ = ["Casing", "Friction", "IntegrationChoice", "InteractionChoice", "Lining", "Orientation"]
 
 
-def _with_defaults(kind: type, **others: Any) -> Callable[..., Any]:
+def with_defaults(kind: type, **others: Any) -> Callable[..., Any]:
+    """A dataclass of which the `others` need not be given."""
     names = [field.name for field in fields(kind)]
 
     def made(*values: Any, **named: Any) -> Any:
@@ -26,7 +25,5 @@ def _with_defaults(kind: type, **others: Any) -> Callable[..., Any]:
     return made
 
 
-Scene = _with_defaults(scene.Scene, lining=None, friction=None, damping_ratio=0.0005)
-BoundaryChoice = _with_defaults(reduction_choice.BoundaryChoice, contact="points")
-MeshSource = _with_defaults(source.MeshSource, sense_check=True)
-MatricesSource = _with_defaults(source.MatricesSource, mass_unit="kg", stiffness_unit="N/m", sense_check=True)
+Scene = with_defaults(scene.Scene, lining=None, friction=None, damping_ratio=0.0005)
+BoundaryChoice = with_defaults(reduction_choice.BoundaryChoice, contact="points")

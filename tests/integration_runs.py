@@ -7,17 +7,15 @@ import numpy as np
 import pytest
 from defaults import Friction
 from integration_cases import NARROW
-from reference_engine import ReferenceRotor, ReferenceRunUp, ReferenceSimulation
+from reference_engine import ReferenceRotor, ReferenceSimulation
 
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
-from r37studies.run_ups.integration import RunUpIntegration
 
 ENGINES = {"compiled": Simulation, "reference": ReferenceSimulation}
 ROTORS = {"compiled": RotorSimulation, "reference": ReferenceRotor}
-RUN_UPS = {"compiled": RunUpIntegration, "reference": ReferenceRunUp}
-"""Simulations of a blade and of a rotor, and run-ups, by each of the two engines."""
+"""Simulations of a blade and of a rotor by each of the two engines."""
 
 
 def whole_run(model, speed, scene, choice, motion=None, engine="compiled"):

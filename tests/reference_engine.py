@@ -13,7 +13,6 @@ from r37core.contact.casing import casing_axes
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.state import Schedule, SimulationRecord
-from r37studies.run_ups.integration import RunUpIntegration
 
 MOST_SWEEPS = 200
 
@@ -362,9 +361,3 @@ class ReferenceRotor(RotorSimulation):
                 engine.angle = angle
         done, _ = go_on(engines, states, outs, self.rotor.order)
         return [done] * len(engines), [engine.worn for engine in engines], np.zeros(len(engines))
-
-
-class ReferenceRunUp(RunUpIntegration):
-    """A run-up by the reference engine."""
-
-    simulation_class = ReferenceSimulation

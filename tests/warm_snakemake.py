@@ -26,6 +26,7 @@ from multiprocessing import Pipe
 from pathlib import Path
 from types import SimpleNamespace
 
+from r37core.base.packages import PACKAGES
 from r37core.console.caller import CALLER
 
 CHECKOUT = Path(__file__).parent.parent
@@ -150,9 +151,9 @@ def _import_package():
     os.environ.setdefault("MPLBACKEND", "Agg")
     for file in [CHECKOUT / "Snakefile", *(CHECKOUT / "workflow").rglob("*.smk")]:
         text = file.read_text()
-        names = re.findall(r"^from (r37core\S*) import", text, re.MULTILINE)
+        names = re.findall(r"^from (r37\w+\S*) import", text, re.MULTILINE)
         steps = [*STRUCTURE, *re.findall(r'"(\w+(?:\.\w+)+\.\w+)"', text)]
-        for name in {*names, *(f"r37core.{step.rpartition('.')[0]}" for step in steps)}:
+        for name in {*names, *(step.rpartition(".")[0] for step in steps)}:
             with suppress(ModuleNotFoundError):
                 import_module(name)
 
@@ -164,7 +165,7 @@ def _become(order, streams):
     os.environ.update(order["environment"])
     sys.path[:0] = order["environment"]["PYTHONPATH"].split(os.pathsep)
     if Path(sys.path[0]).resolve() != CHECKOUT / "src":
-        for name in [name for name in sys.modules if name.split(".")[0] == "r37core"]:
+        for name in [name for name in sys.modules if name.split(".")[0] in PACKAGES]:
             del sys.modules[name]
     sys.argv = ["snakemake", *order["arguments"]]
     for number, stream in enumerate(streams[:3]):
@@ -216,7 +217,7 @@ def _share_structures():
     """
     common = os.environ["R37_CACHE"].startswith(os.environ["R37_RUN_OF_TESTS"])
     for name in STRUCTURE if common else ():
-        module, _, step = f"r37core.{name}".rpartition(".")
+        module, _, step = name.rpartition(".")
         # a package of one's own is not imported yet, and shares nothing
         if module in sys.modules:
             setattr(sys.modules[module], step, partial(_made_once, getattr(sys.modules[module], step)))

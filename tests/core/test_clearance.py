@@ -3,38 +3,27 @@
 import re
 from dataclasses import replace
 
-import netCDF4
 import numpy as np
 import pytest
 import scipy.sparse as sp
 from box_mesh import box_mesh
-from box_operator import box_operator
-from defaults import Casing, IntegrationChoice, Scene
+from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT, LINING, random_model, with_static_modes
-from integration_runs import ENGINES, RUN_UPS, whole_run
+from integration_runs import ENGINES, whole_run
 
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, checked_scene
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import factorise
-from r37core.fem.stress import recovered_stress
 from r37core.product.extensions import load_settings
-from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rotation import BucklingError, rotation_amplitudes, shapes_of_rotation
-from r37core.stress.operator import von_mises
 from r37core.time_integration.clearance import NoRoomError, check_room, clearances, growth
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
-from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
-from r37studies.fields import displacement_of
-from r37studies.run_ups import revolutions
-from r37studies.run_ups.choice import RunUp
-from r37studies.run_ups.integration import RunUpIntegration
-from r37studies.run_ups.revolutions import record_run_up
 
 SHORT = IntegrationChoice(4e-7, 3, 62, integrator="exact_modal")
 NARROW = replace(ABRADABLE, lining=replace(LINING, bar_area=1.6e-7))
@@ -270,98 +259,10 @@ def test_a_tip_inside_of_the_casing_is_refused():
         Problem(model, 1000.0, replace(lined, lining=replace(LINING, thickness=1e-6)), SHORT)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-def test_at_one_speed_a_run_up_is_the_run_at_that_speed(engine):
-    model, choice = moved(3), replace(SHORT, time_step=2e-6)
-    expected, _ = run_of(model, growing(NARROW), choice, engine)
-    integration = RUN_UPS[engine](model, growing(NARROW), choice, RunUp(1000.0, 1000.0, 1.0, 1, 1, worn=False))
-    np.testing.assert_array_equal(np.concatenate([stage.samples for stage in integration.segments()]), expected)
-
-
-def test_the_clearance_follows_the_speed():
-    """A blade that nothing but its growth brings to the round lining begins to press it at the speed that closes the gap."""
-    model = replace(random_blade(1), rotation_shapes=np.array([[[1e-10]], [[0.0]], [[0.0]]]), tip_cone_angle=0.0)
-    scene = growing(NARROW, clearance=1.21e-4, lobes=0)
-    choice, run_up = replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False)
-    integration = RunUpIntegration(model, scene, choice, run_up)
-    touching = np.concatenate([stage.speeds[stage.wear > 0.0] for stage in integration.segments()])
-    assert touching.min() == pytest.approx(1100.0, abs=2.0)
-    with pytest.raises(NoRoomError, match="at 1200 rad/s"):
-        RunUpIntegration(model, replace(scene, lining=None), choice, run_up)
-
-
 def static_displacement(model, speed):
     """Displacement (m) of the box's nodes by rotation alone, at one instant."""
     shapes = model.stress_regions["box"].nodes.rotation_shapes
     return (shapes @ rotation_amplitudes(model.rotation_stiffening, speed))[:, :, None]
-
-
-def test_stress_is_that_of_both_displacements_together(whole, mesh, steel):
-    """Of the sum of the displacements, from the elements themselves; not the sum of two von Mises stresses."""
-    contact, speed = contact_model(whole, "pressure_edge"), 1500.0
-    choice = replace(SHORT, time_step=3.2e-6, snapshots_per_revolution=31, snapshot_revolutions=1)
-    kept = {
-        name: run_speed(contact, speed, growing(NARROW), choice, results, **KEPT)
-        for name, results in (("total", ["stress", "static_stress"]), ("vibration", ["stress"]))
-    }
-    recovery = box_operator(whole, steel)
-    found = recovery.max_von_mises(kept["total"]["snapshots"])
-    vibration = recovery.max_von_mises(kept["vibration"]["snapshots"])
-    box, still = whole.stress_regions["box"], static_displacement(whole, speed)
-    moving = box.nodes.basis @ kept["vibration"]["snapshots"].T
-    tensors = recovered_stress(box.elements, box.nodes.points, still + moving, steel, False)
-    np.testing.assert_allclose(found, von_mises(tensors).max(axis=0), rtol=1e-5)
-    rotation = von_mises(recovered_stress(box.elements, box.nodes.points, still, steel, False)).max()
-    assert rotation > 1e8
-    assert np.all(found <= (rotation + vibration) * (1.0 + 1e-6))
-    assert np.all(np.abs(found - rotation - vibration) > 1e-3 * rotation)
-    # exports have the displacement of both, too
-    everywhere = displacement_of(whole, kept["total"]["snapshots"]) - displacement_of(whole, kept["vibration"]["snapshots"])
-    alone = whole.whole_blade.rotation_shapes @ rotation_amplitudes(whole.rotation_stiffening, speed)
-    np.testing.assert_allclose(everywhere[0], alone, rtol=0, atol=1e-6 * np.abs(alone).max())
-
-
-def test_responses_have_the_clearance_and_the_stress_of_rotation(whole, steel, tmp_path):
-    """A blade that touches nothing has the stress of rotation, in its response and in every revolution of a run-up."""
-    contact, scene = contact_model(whole, "pressure_edge"), growing(Scene(Casing(1e-3, lobes=0)))
-    choice = replace(SHORT, time_step=1e-6, snapshots_per_revolution=31, snapshot_revolutions=1)
-    results, speeds, recovery = ["stress", "static_stress"], (1000.0, 1500.0), box_operator(whole, steel)
-    files = [tmp_path / f"{speed:g}.npz" for speed in speeds]
-    for speed, file in zip(speeds, files, strict=True):
-        write_speed(run_speed(contact, speed, scene, choice, results, **KEPT, stress={"box": recovery}), file, {})
-    write_response(files, speeds, tmp_path / "response.nc", stress_history_speeds=(), yield_stress=1e9, provenance={})
-    with netCDF4.Dataset(tmp_path / "response.nc") as response:
-        assert response["static_stress"][...] == 1.0
-        assert response["clearance"].dimensions == ("speed", "contact_node")
-        np.testing.assert_allclose(response["clearance"][:], clearances(contact, scene, np.array(speeds)))
-        largest = response["max_von_mises_last_revolution"][:, 0]
-    for speed, found in zip(speeds, largest, strict=True):
-        box = whole.stress_regions["box"]
-        tensors = recovered_stress(box.elements, box.nodes.points, static_displacement(whole, speed), steel, False)
-        assert found == pytest.approx(von_mises(tensors).max(), rel=1e-6)
-    run_up, choice = RunUp(1000.0, 1500.0, 5.0, 1, 1, worn=False), replace(choice, revolutions=1)
-    integration = RunUpIntegration(contact, scene, choice, run_up)
-    kept = record_run_up(integration, results, highest_order=5, stress=recovery, yield_stress=1e9)
-    np.testing.assert_allclose(kept["max_von_mises"][[0, -1]], largest, rtol=1e-6)
-    assert np.all(np.diff(kept["max_von_mises"]) >= 0.0)
-
-
-def test_a_run_up_leaves_no_instant_out_that_has_the_largest_stress(whole, steel, monkeypatch):
-    """Of rotation and vibration together: what bounds the stress of an instant must hold both."""
-    contact, run_up = contact_model(whole, "pressure_edge"), RunUp(1490.0, 1500.0, 1.0, 2, 0, worn=False)
-    choice = replace(SHORT, time_step=3.2e-6, revolutions=2, snapshots_per_revolution=31, snapshot_revolutions=2)
-    found = []
-    recovery, shipped = box_operator(whole, steel), revolutions.largest_stress
-
-    def of_all(_recovery, coordinates, _bound):
-        return np.array([recovery.max_von_mises(one).max() for one in coordinates])
-
-    for largest in (shipped, of_all):
-        monkeypatch.setattr(revolutions, "largest_stress", largest)
-        integration = RunUpIntegration(contact, growing(NARROW), choice, run_up)
-        kept = record_run_up(integration, ["stress", "static_stress"], highest_order=5, stress=recovery, yield_stress=1e9)
-        found.append(kept["max_von_mises"])
-    np.testing.assert_allclose(*found, rtol=1e-10)
 
 
 def casing_of(**clearance):

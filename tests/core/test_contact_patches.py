@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 import scipy.linalg as la
 from box_mesh import box_mesh
-from defaults import BoundaryChoice, IntegrationChoice, MatricesSource
+from defaults import BoundaryChoice, IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT
 from integration_runs import ENGINES
 
-import r37
 from r37core.config import ConfigError, command_line_document
 from r37core.config.remarks import (
     remarks_at_end,
@@ -23,18 +22,14 @@ from r37core.config.remarks import (
 from r37core.config.settings import location_of_contact
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
-from r37core.fem.orientation import OURS
 from r37core.fem.traces import edge_traces
-from r37core.plans.provenance import structure_hash
 from r37core.product.extensions import read_settings
-from r37core.rom.contact_weights import contact_along, mean_fields, mean_positions, tip_contact
+from r37core.rom.contact_weights import mean_fields, mean_positions, tip_contact
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import BoundaryError, boundary_located
 from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integrators import EXACT_MODAL
-from r37imports.importing.matrices_in import import_matrices
-from r37studies.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 
 EVEN = {"spacing": "even"}
 PATCHES = BoundaryChoice("pressure_edge", 4, True, "patches", "even")
@@ -204,39 +199,6 @@ def test_the_stress_region_leaves_out_every_element_that_contact_acts_on(mesh, r
 SPEEDS = (0.0, 1000.0, 2000.0)
 
 
-@pytest.fixture(scope="module")
-def directory(mesh, matrices, patched, tmp_path_factory):
-    """Full matrices of the blade on patches, with all nodes of its edge in boundary.csv."""
-    folder = tmp_path_factory.mktemp("matrices")
-    np.testing.assert_array_equal(table_nodes(patched, "pressure_edge").nodes, mesh.node_set("tip_pressure_edge"))
-    write_full_matrices(matrices, patched, "pressure_edge", SPEEDS, folder)
-    return folder
-
-
-def test_patches_of_full_matrices(directory, patched, reduction):
-    """Nodes on the line, and no elements: hats of straight pieces, on a coarse mesh within a percent of the elements' own."""
-    again = import_matrices(MatricesSource(str(directory), OURS), replace(PATCHES, nodes=5), reduction)
-    assert len(again.singular_values) == len(patched.singular_values)
-    np.testing.assert_allclose(again.modes(1000.0, 8)[0], patched.modes(1000.0, 8)[0], rtol=1e-4)
-    found, ours = (la.inv(model.stiffness)[:15, :15] for model in (again, patched))
-    np.testing.assert_allclose(found, ours, atol=0.02 * np.abs(ours).max())
-    np.testing.assert_allclose(again.contact_chord, patched.contact_chord, atol=0.02)
-
-
-def test_patches_of_reduced_matrices_keep_every_motion(every, reduction, tmp_path):
-    """A small model on all nodes of the edge, taken with other coordinates: its modes are the same, its patches means."""
-    write_reduced_matrices(every, SPEEDS, tmp_path)
-    again = import_matrices(MatricesSource(str(tmp_path), OURS), PATCHES, reduction)
-    assert again.size == every.size
-    np.testing.assert_allclose(again.modes(1500.0)[0][:40], every.modes(1500.0)[0][:40], rtol=1e-7)
-    chord = np.linspace(0.0, 1.0, len(every.contact_nodes.nodes))
-    weights = contact_along(every.contact_nodes.points, chord, PATCHES).weights
-    rows = mean_fields(weights, every.contact_nodes.basis).reshape(12, -1)
-    np.testing.assert_allclose(again.contact_nodes.basis.reshape(12, -1)[:, :12], np.eye(12), atol=1e-8)
-    flexibility = rows @ la.solve(every.stiffness, rows.T)
-    np.testing.assert_allclose(la.inv(again.stiffness)[:12, :12], flexibility, atol=2e-3 * np.abs(flexibility).max())
-
-
 def test_patches_are_shorter_towards_the_edges_and_as_many_as_the_tip_has_room_for():
     """Unless chosen otherwise: twelve, or fewer on a coarse tip; points stay evenly spaced, eight anywhere."""
     patches, points = BoundaryChoice(contact="patches"), BoundaryChoice(contact="points")
@@ -257,17 +219,6 @@ def test_more_patches_than_the_edge_has_nodes_for(mesh, count):
     found = rf"found {count} contact patches on the 29 mesh nodes of the tip line 'pressure_edge'; allowed: at most 15 "
     with pytest.raises(BoundaryError, match=rf"{found}\(structure\.boundary\.nodes\), because .*; or contact: points, or a"):
         tip_contact(mesh, replace(PATCHES, nodes=count))
-
-
-def test_matrices_without_the_nodes_for_patches(model, reduction, tmp_path):
-    write_reduced_matrices(model, SPEEDS, tmp_path)
-    source = MatricesSource(str(tmp_path), OURS)
-    message = r"found 8 contact patches on the 8 nodes of boundary\.csv; allowed: at most 4 .* or contact: points"
-    with pytest.raises(BoundaryError, match=message):
-        import_matrices(source, replace(PATCHES, nodes=8), reduction)
-    single = replace(PATCHES, nodes=1)
-    with pytest.raises(BoundaryError, match=r"on the 1 nodes .* allowed: none .* because a patch is made of two or more"):
-        contact_along(np.array([[0.25, 0.0, 0.0]]), np.array([0.5]), single)
 
 
 BLADES = """
@@ -291,22 +242,6 @@ def settings_with(config_copy):
         return read_settings(config_copy, command_line_document({"structure": {"boundary": boundary or {}}} | changes))
 
     return read
-
-
-def test_a_blade_has_the_contact_and_kinematics_of_its_base(settings_with, config_copy):
-    def chosen(settings):
-        return {name: settings.boundary_choice(name).contact for name in settings.blades}
-
-    settings, point_contact = settings_with(), settings_with({"contact": "points"})
-    own = dict.fromkeys(("Mine", "Sweep_5", "Sweep_10", "Alone"), "patches") | {"Kept": "points", "Like": "points"}
-    assert chosen(settings) == dict.fromkeys(("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100"), "points") | own
-    kinematics = {name: settings.reduction_choice(name).kinematics for name in settings.blades}
-    assert kinematics == dict.fromkeys(settings.blades, "linear") | {"Alone": "quadratic"}
-    assert set(chosen(settings_with({"contact": "patches"})).values()) == {"patches"}
-    assert structure_hash(settings, "Mine") != structure_hash(point_contact, "Mine")
-    for base in ("Mine", "Kept", "Like", "Alone"):
-        file = config_copy / "config/blades.yaml"
-        assert r37.blade(base, thickness_percent=90, name="Copy", file=file).settings.contact == own[base]
 
 
 def test_unlike_contact_is_told_before_the_run(settings_with):

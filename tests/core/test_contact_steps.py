@@ -31,7 +31,6 @@ from integration_runs import (
 from reference_engine import ReferenceSimulation, complementary
 from scipy.integrate import solve_ivp
 
-import r37
 from r37core.contact.scene import Rotor
 from r37core.time_integration import problem as problem_module
 from r37core.time_integration.initial_motion import InitialMotion
@@ -524,20 +523,6 @@ def test_forces_of_twenty_patches_are_those_of_the_complementarity_problem(frict
         assert np.all((gap + matrix @ pressure)[~listed] > -1e-11)
         found += listed.sum() > 2
     assert found > 3 and state.totals["worst_complementarity"] == 0.0
-
-
-@pytest.mark.slow
-def test_a_run_has_it_from_model_to_dataset(config):
-    """The benchmark's blade on patches and points, in the lining and in bare casing: only there its edge passes the casing."""
-    found = {}
-    for contact in ("points", "patches"):
-        blade = r37.blade("Ref", contact=contact, config=config)
-        for name in ("direct", "abradable"):
-            scene = r37.scene(name, config=config, revolutions=100)
-            found[name, contact] = r37.simulate(blade, scene, 1330.0, results=[]).largest_penetration.item()
-    assert found["abradable", "points"] == found["abradable", "patches"] == 0.0
-    # a tenth of the clearance to all of it, and fewer on short end patches
-    assert 3e-5 < found["direct", "patches"] < 0.5 * found["direct", "points"] < 5e-4
 
 
 def test_a_rotor_has_the_largest_of_its_blades():

@@ -12,12 +12,10 @@ import pytest
 from pydantic import Field
 
 from r37core.base.declared import Key, declared_keys
-from r37core.base.units import LIKE_A_UNIT, SI_UNITS, SUFFIXES, unit_of
+from r37core.base.units import LIKE_A_UNIT, SUFFIXES
 from r37core.config import ConfigError, Document, checked_scene, si_fields, si_form
 from r37core.config.declaring import DECLARED, declared_by
 from r37core.config.section import Section
-from r37core.results.columns import OPERATING, RANKING, SUMMARY, Column
-from r37studies.designs.table import MEASURES
 
 
 @dataclass(frozen=True)
@@ -200,14 +198,6 @@ def test_a_key_of_an_unknown_unit_is_refused_with_its_name(unit):
 
     with pytest.raises(ValueError, match=rf"key force{unit}: found the unit '{unit}'; known: _m, _m2, .*_deg"):
         declared_keys(Spring)
-
-
-@pytest.mark.parametrize("column", ["power_w", "force_n", "energy_j", "time_s"])
-def test_every_column_has_a_unit_that_is_known(column):
-    units = {unit_of(column.name) for column in (*SUMMARY, *RANKING, *MEASURES, *OPERATING)}
-    assert units == {*SI_UNITS.values(), "1"} - {"percent"}
-    with pytest.raises(ValueError, match=f"{column}: ends like a unit that no column has; known: _m, _pa"):
-        _ = Column(column, "").unit
 
 
 @pytest.mark.parametrize(("rad_s", "rpm", "speeds"), [([5.0], [], (5.0,)), ([], [30.0], (math.pi,)), ([], [], ())])

@@ -8,16 +8,7 @@ import xarray as xr
 from defaults import Casing, Friction, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, ELASTIC, SCENES, oscillator, random_model, with_static_modes
 from integration_cases import RING as STEEL
-from integration_runs import (
-    ENGINES,
-    RUN_UPS,
-    assert_close,
-    assert_same_record,
-    assert_same_state,
-    both_engines,
-    times,
-    whole_run,
-)
+from integration_runs import ENGINES, assert_close, assert_same_record, assert_same_state, both_engines, times, whole_run
 from scipy.integrate import solve_ivp
 
 from r37core.base.plain import to_plain
@@ -45,8 +36,6 @@ from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
-from r37studies.run_ups.choice import RunUp
-from r37studies.run_ups.integration import RunUpIntegration
 
 CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL)
 
@@ -238,29 +227,6 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
     orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
     assert errors[0] < 3e-2
     assert np.all((orders > 1.9) & (orders < 2.1)), (orders, errors)
-
-
-def test_a_run_up_of_no_rate_is_the_run_at_constant_speed():
-    choice, scene, model = replace(CHOICE, revolutions=3), ELASTIC_SCENES["abradable"], random_blade()
-    _, _, record = whole_run(model, 3000.0, scene, choice)
-    run_up = RunUp(3000.0, 3000.0 * (1.0 + 1e-12), 3, before=0, after=0, worn=False)
-    stages = RunUpIntegration(model, scene, choice, run_up).segments()
-    assert_close(np.concatenate([stage.samples for stage in stages]), record.samples, 1e-8)
-
-
-@pytest.mark.parametrize("name", ["abradable", "direct"])
-def test_a_run_up_of_many_segments_is_that_of_the_reference_and_keeps_its_balance(name):
-    """Where the casing is in the rotor's frame goes on from stretch to stretch."""
-    choice, found = replace(CHOICE, revolutions=3, time_step=5e-7, samples_per_revolution=31), []
-    for run_up_class in RUN_UPS.values():
-        run_up = RunUp(3000.0, 3300.0, 1.3, before=0, after=0, worn=False)
-        integration = run_up_class(random_blade(), ELASTIC_SCENES[name], choice, run_up)
-        found.append(np.concatenate([stage.samples for stage in integration.segments()]))
-        work, loss = integration.balance["contact_work"], integration.balance["damping_loss"]
-        missing = integration.balance["energy_change"] - integration.stiffness_work - work + loss
-        assert work != 0.0 and abs(missing) < 1e-9 * (abs(work) + loss)
-    assert max(len(interval.segments) for interval in integration.intervals) > 10
-    assert_close(*found, 1e-10)
 
 
 @pytest.mark.parametrize("radius", [0.1, 0.251, 0.51, 255.0])

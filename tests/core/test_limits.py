@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from quadratic_cases import LENGTH, SOFT_SIDEWAYS, beam_mesh, beam_model, free_blade
 
 from r37core.fem.equilibrium import Rotation
@@ -10,12 +9,8 @@ from r37core.fem.large_displacement import LargeDisplacement
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import factorise, lowest_modes
 from r37core.results.limits import OF_LIMITS, beyond_limits, reasons_beyond_limits
-from r37core.results.operating_range import OperatingRange
 from r37core.rom.quadratic_terms import PATH_SHARES
 from r37core.rom.reduced_model import contact_model
-from r37studies.requirements.choice import Requirements
-from r37studies.requirements.evidence import Evidence
-from r37studies.requirements.judging import FAILS, MEETS, UNKNOWN, judge
 
 WITHIN = {
     "peak_share_of_height": 0.1,
@@ -59,21 +54,6 @@ def test_linear_runs_have_no_limits_of_second_order():
     assert len(reasons_beyond_limits(linear)) == 1
     assert not beyond_limits({})
     assert reasons_beyond_limits({}) == []
-
-
-@pytest.mark.parametrize("name", BEYOND)
-@pytest.mark.parametrize(("share", "within", "beyond"), [(0.0, MEETS, UNKNOWN), (1.0, FAILS, FAILS)])
-def test_a_verdict_beyond_a_limit_meets_nothing(name, share, within, beyond):
-    """Nor is the note of one that fails empty; what lies outside of the operating range counts for nothing."""
-    changed = {name: BEYOND[name][0]}
-    for changes, last, verdict in (({}, 1002.0, within), (changed, 1002.0, beyond), (changed, 1001.0, within)):
-        runs = {key: ("speed", values) for key, values in runs_with(**changes).items()}
-        runs |= {"status": ("speed", [0, 0, 0]), "share_of_revolutions_above_yield": ("speed", [share] * 3)}
-        runs |= {"static_stress": 1.0, "yield_stress": 1.0, "lined": 1.0}
-        evidence = Evidence(xr.Dataset(runs, {"speed": [1000.0, 1001.0, 1002.0]}), operating=OperatingRange(1000.0, last))
-        (row,) = judge(Requirements(above_yield=0.0), evidence)
-        assert row["verdict"] == verdict
-        assert (BEYOND[name][1] in row["note"]) == (bool(changes) and last == 1002.0)
 
 
 def held_by_full_finite_elements(share):

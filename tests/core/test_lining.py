@@ -1,6 +1,5 @@
 """The casing's side of a scene: what presses and wears the lining by its material, and the height of the lobes."""
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +10,6 @@ from integration_cases import ABRADABLE, DIRECT, NARROW, oscillator, random_mode
 from integration_runs import ENGINES, whole_run
 from workflow_runs import overlay
 
-import r37
 from r37core.config import ConfigError, checked_scene, command_line_document
 from r37core.config.remarks import remarks_on_laws
 from r37core.product.extensions import read_settings
@@ -20,7 +18,6 @@ from r37core.rom.contact_weights import tip_lengths
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.lining_at_tip import lining_at_tip
 from r37core.time_integration.simulate import Simulation
-from r37studies.trials import stability
 
 LINING = Lining(5e-3, 20e9, 5e9, 1.5, contact_length=2e-4)
 SOFT = replace(LINING, elastic_modulus=1e3, plastic_modulus=2.5e2, yield_stress=0.0)
@@ -158,16 +155,6 @@ def test_both_give_the_same_bits(engine, scene, growing):
     assert not np.array_equal(samples(height=7.0e-4), lobes)
 
 
-def test_a_scene_has_one_height():
-    found = "amplitude_clearances and amplitude_m; allowed: one of them; null .None in Python. leaves out an inherited one$"
-    with pytest.raises(ConfigError, match=found):
-        checked_scene({"casing": {**CLEARANCE, "amplitude_clearances": 2.0, "amplitude_m": 7.12e-4}})
-    with pytest.raises(ConfigError, match=found):
-        r37.scene("abradable", **{"casing.amplitude_clearances": 3.0})
-    assert r37.scene("abradable", **IN_CLEARANCES).entry.scene().casing.lobe_height == 7.12e-4
-    assert r37.scene("abradable", **{"casing.amplitude_m": None}).entry.casing.amplitude_clearances == 2.0
-
-
 SPREAD = {"casing.clearance_m": {"uniform_percent": 5}}
 SPREAD_COLD = {"casing.clearance.cold_m": {"uniform_percent": 5}}
 QUANTILE = {"measure": "largest_rms_m", "scenes": ["abradable"], "quantile": 0.9}
@@ -209,33 +196,3 @@ def test_shipped_runs_hold_the_height(root):
     for name in ("tolerances", "ranking", "clearance"):
         changes = yaml.safe_load((root / f"config/{name}.yaml").read_text())
         assert not [one for one in remarks_of_run(read_settings(root, command_line_document(changes))) if "lobes" in one]
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"casing.clearance_m": 4e-4}, False),
-        ({**IN_CLEARANCES, "casing.clearance_m": 4e-4}, True),
-        ({**IN_CLEARANCES, "casing.clearance_m": 3.56e-4}, False),
-        ({**IN_CLEARANCES, "casing.clearance_m": None, "casing.clearance": {"cold_m": 4e-4}}, True),
-        (IN_CLEARANCES, False),
-    ],
-)
-def test_a_call_that_changes_the_clearance_is_warned(root, monkeypatch, changes, said):
-    monkeypatch.setattr("r37.simulations.response_file", None)
-    scene = r37.scene("direct", config=root / "config/config.yaml", **changes)
-    with warnings.catch_warnings(record=True) as caught, pytest.raises(TypeError):
-        warnings.simplefilter("always")
-        r37.sweep("Ref", scene, [1500])
-    assert len([one for one in caught if SAID in str(one.message)]) == said
-
-
-def test_extremes_of_clearance_and_lobes_are_those_of_lobes_in_clearances(config_copy):
-    """Otherwise, nothing would touch at the largest clearance."""
-    cases = stability.cases(read_settings(config_copy))
-    assert cases["clearance_0.01__direct"].scene.casing.lobe_height == pytest.approx(2e-2)
-    assert cases["ovalisation_in_clearances_10__direct"].scene.casing.lobe_height == pytest.approx(3.56e-3)
-    assert cases["damping_ratio_0.1__direct"].scene.casing.height == 7.12e-4
-    overlay(config_copy, "config.yaml", "scenes: [growing_direct]")
-    growing = stability.cases(read_settings(config_copy))["clearance_0.01__growing_direct"].scene.casing
-    assert (growing.clearance, growing.lobe_height) == (0.01, pytest.approx(2e-2))

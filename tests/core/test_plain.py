@@ -19,7 +19,6 @@ from r37core.rom.region_choice import EVERYWHERE
 
 LINING = defaults.Lining(5e-3, 8e9, 2e9, 15e6, bar_width=0.035)
 ORIENTATION = defaults.Orientation("mm", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
-CONE = defaults.Where(limits=(("r", "at_least", 0.2),), cone_zr=((0.0, 0.1), (0.2, 0.3)))
 
 CASING = defaults.Casing(1e-3)
 
@@ -33,8 +32,7 @@ JOBS_GET = [
     replace(EVERYWHERE, maximum_z=0.1),
     RefinementChoice((Window("1B", 12, 0.0, 0.1, 5.0),), 0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
     SpeedPlan((900.0, 1000.0), (RefinedRange(900.0, 1.0, 50, 100),)),
-    defaults.MeshSource("blade.inp", ORIENTATION, defaults.Where(("ROOT",)), CONE),
-    defaults.MatricesSource("folder", ORIENTATION),
+    ORIENTATION,
 ]
 
 

@@ -6,7 +6,6 @@ import re
 import time
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 import yaml
@@ -14,7 +13,6 @@ from shared_sweep import copy_structure
 from stubbed_runs import BLADES, REFINED, SCENES, copy_stubbed, refine, runs, simulated
 from workflow_runs import copy_finished, digests, kill_snakemake, lose_speed, overlay, planned_outputs, snakemake
 
-import r37
 from r37core.time_integration.status import RunStatus
 
 pytestmark = pytest.mark.slow
@@ -158,15 +156,3 @@ def with_extensions(real, tmp_path_factory):
     snakemake(folder, *files, "--cores", "2")
     assert before.items() < parts().items()
     return folder
-
-
-def test_python_has_the_same_rounds_members_and_run_ups(with_extensions, warm_calls):
-    """To the last bit, on one core as on two, and without a break."""
-    results = r37.open_results(with_extensions / "results")
-    common = {"config": with_extensions / "config/config.yaml", "cores": 1}
-    speeds = {"start": 1000, "stop": 1240, "step": 80, "refine_to": 20}
-    again = r37.run("CS100", "abradable", speeds, tolerances=TOLERANCES, run_ups=RUN_UPS, **common)
-    xr.testing.assert_identical(again.response("CS100", "abradable"), results.response("CS100", "abradable"))
-    xr.testing.assert_identical(again["tolerances"], results["tolerances"])
-    pd.testing.assert_frame_equal(again.tables["tolerances"], results.tables["tolerances"])
-    xr.testing.assert_identical(again["run_ups"], results["run_ups"])

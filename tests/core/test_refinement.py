@@ -25,7 +25,6 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import load_settings, read_settings
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
-from r37studies.exports.plan import Exports
 
 
 def test_a_range_has_its_coarse_speeds_and_its_end():
@@ -347,13 +346,6 @@ def test_file_names_stay_exact_and_in_rad_s_and_rules_have_either_unit(root):
 def test_speeds_rpm_refusals(root, changes, message):
     with pytest.raises(ConfigError, match=message):
         on_command_line(root, **changes)
-
-
-def test_exports_name_speeds_in_rpm(root):
-    settings = on_command_line(root, speeds_rpm=[8000, 9000], exports={"stress_speeds_rpm": [9000]})
-    exported = Exports(Sweep(settings))
-    assert not exported.only_worst(PLACE)
-    assert exported.speed_files(PLACE) == [f"<results>/Ref/direct/speed_{exact_text(9000 * RAD_S)}.npz"]
 
 
 def test_histories_at_speeds_in_rpm(root, config_copy):

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 from test_refusals import edit
 
-import r37
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, checked_scene, command_line_document
-from r37core.config.changed_numbers import entry_with, scene_numbers
 from r37core.config.declaring import si
 from r37core.config.rotor_section import RotorSection
 from r37core.contact.scene import Rotor
@@ -55,33 +53,6 @@ def test_tables_by_number_stand_in_a_file(config_copy, table):
         jsonschema.validate(load_yaml(scenes), schema)
     with pytest.raises(ConfigError, match=r"^config/scenes\.yaml:\d+: rotor_\w+\.rotor\.mistuning_percent\.0?1: found 4000"):
         read_settings(config_copy)
-
-
-@pytest.mark.parametrize(
-    "rotor",
-    [
-        {"rotor": {"blades": 4, "mistuning_percent": {1: 0.4, 3: -0.7}}},
-        {"rotor": {"blades": 4, "mistuning_percent": {"1": 0.4, "03": -0.7}}},
-        {"rotor": {"blades": 4, "mistuning_percent": {np.int64(1): 0.4, np.int8(3): np.float32(-0.7)}}},
-        {"rotor.blades": 4, "rotor.mistuning_percent.1": 0.4, "rotor.mistuning_percent.3": -0.7},
-    ],
-)
-def test_tables_by_number_are_given_in_python(rotor):
-    scene = r37.scene("abradable", results=["stress"], **rotor)
-    np.testing.assert_allclose(scene.entry.scene().rotor.frequency_factors, (1.004, 1.0, 0.993, 1.0), rtol=1e-8)
-
-
-def test_a_blade_of_a_file_has_another_value_in_python(config_copy):
-    scenes = config_copy / "config/scenes.yaml"
-    edit(scenes, ROTOR, "rotor: { blades: 3, longer_m: { 1: 2.0e-5, 2: 3.0e-5 } }")
-    changed = r37.scene("rotor_abradable", file=scenes, rotor={"longer_m": {2: -1e-5, 3: 5e-6}})
-    assert changed.entry.scene().rotor.longer == (2e-5, -1e-5, 5e-6)
-
-
-def test_a_member_of_a_sample_has_another_value_of_one_blade():
-    entry = r37.scene("abradable", results=["stress"], rotor={"blades": 2, "longer_m": {2: 3e-5}}).entry
-    assert scene_numbers(entry)["rotor.longer_m.2"] == 3e-5
-    assert entry_with(entry, {"rotor.longer_m.2": 4e-5}).scene().rotor.longer == (0.0, 4e-5)
 
 
 BLADES = "the number of a blade, from 1 to 1000"

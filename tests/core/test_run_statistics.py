@@ -11,7 +11,6 @@ from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator, random_model
 from reference_engine import ReferenceSimulation
 
-import r37
 from r37core.base.dataset_file import read_dataset
 from r37core.contact.laws import used_thickness, wear_at_the_casing, worn
 from r37core.contact.scene import Friction, Rotor
@@ -392,31 +391,3 @@ def test_stress_of_a_settled_run_is_that_of_its_last_revolutions(tmp_path):
     assert joined.sel(blade="blade", scene="100").values.tolist() == [kept["motion_at_end"], MotionAtEnd.UNKNOWN]
     assert joined.sel(blade="second", scene="100").values.tolist() == [MotionAtEnd.UNKNOWN] * 2
     assert joined.dtype == "i1" and joined.attrs["flag_values"].tolist() == list(MotionAtEnd)
-
-
-@pytest.mark.slow
-def test_the_reference_blade_cuts_itself_free():
-    """Interaction 1B/4 on points: at 200 revolutions 1726 and 1729 rad/s move more than 1700, at 1,000 that alone is left."""
-    blade = r37.blade("Ref", name="Points", contact="points")
-    speeds, rise = [1700.0, 1726.0, 1729.0], {"casing.rise_revolutions": 40, "friction.form": "vector"}
-    scenes = [r37.scene("abradable", name="long", revolutions=revolutions, **rise) for revolutions in (200, 1000)]
-    early, late = (r37.sweep(blade, scene, speeds, fidelity="draft", results=["wear"]) for scene in scenes)
-    tip = {"tip_point": "leading_edge"}
-    np.testing.assert_allclose(1e3 * early["rms_normal"].sel(tip), [0.551, 3.277, 2.604], atol=0.01)
-    assert early["motion_at_end"].values.tolist() == [MotionAtEnd.LASTING, MotionAtEnd.GROWING, MotionAtEnd.GROWING]
-    assert late["motion_at_end"].values.tolist() == [MotionAtEnd.LASTING, MotionAtEnd.CUT_FREE, MotionAtEnd.CUT_FREE]
-    np.testing.assert_allclose(late["rms_normal"].sel(tip)[0], early["rms_normal"].sel(tip)[0], rtol=1e-3)
-    assert (late["revolution_maximum"].sel(tip)[1:, -1] < 1e-6).all()
-    # the lobes have grown alike, and the lining is used up where the blade has cut itself free
-    np.testing.assert_allclose(late["revolution_maximum"][:, :200], early["revolution_maximum"], rtol=1e-3)
-    np.testing.assert_allclose(late["used_thickness"], [0.690e-3, 5e-3, 5e-3], rtol=1e-2)
-
-
-@pytest.mark.slow
-def test_a_tip_that_has_cut_its_way_in_and_rests_is_quiet():
-    """Rotation brings it 32 um into the lining: so much is used, nothing is worn through, and nothing moves."""
-    changes = {"casing.lobes": 0, "casing.clearance.cold_m": 3e-5, "lining.thickness_m": 1e-4}
-    scene = r37.scene("growing_abradable", name="cut", **changes)
-    run = r37.simulate("Ref", scene, 1700, fidelity="draft", results=["wear"])
-    assert run.motion_at_end == MotionAtEnd.QUIET and run.worn_through_share == 0.0
-    assert run.used_thickness == run.max_wear and 2e-5 < run.max_wear < 5e-5

@@ -9,13 +9,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-import r37
 from r37core.blade.blade_map import Blade
-from r37core.blade.profile import BladeShapeError, Profile
+from r37core.blade.profile import Profile
 from r37core.blade.section_changes import SectionChange, SpanLaw, changed_profile
 from r37core.blade.stacking import conical_stacking
 from r37core.config import ConfigError
-from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.mesh.generate import generate_mesh
@@ -223,48 +221,3 @@ def test_laws_vary_in_families_and_tables(with_blades):
 def test_refusals_name_blade_key_and_span(with_blades, text, message):
     with pytest.raises(ConfigError, match=re.escape(message)):
         with_blades(f"Mine: {{ base: Ref, {text} }}\n")
-
-
-def test_python_takes_laws_as_yaml_does(with_blades, root):
-    blade = with_blades("Mine: { base: S100, stagger_deg: { tip: 2 }, camber_deg: 1 }").blades["Mine"]
-    for changes in ({"stagger_deg": {"hub": 0, "tip": 2}, "name": "Turned"}, {"stagger_deg.tip": np.float64(2)}):
-        called = r37.blade("S100", config=root / "config/config.yaml", camber_deg=1.0, **changes).settings
-        assert called.definition.profiles == blade.definition.profiles
-
-
-def test_members_have_changes_on_top_of_the_blade_s(root):
-    blade = r37.blade("S100", config=root / "config/config.yaml", stagger_deg=1, thickness_percent={"tip": 90}).settings
-    changes = {"stagger_deg": 0.5, "stagger_deg.tip": 1.0, "chord_percent.hub": 104.0, "thickness_percent": 110.0}
-    member, nominal = changed_blade(blade, changes), shapes(blade)
-    spans = of_each(nominal, lambda profile: profile.parameters.span)
-    np.testing.assert_allclose(stagger(shapes(member)) - stagger(nominal), 0.5 + spans, atol=0.02)
-    np.testing.assert_allclose(chord(shapes(member)), (1.04 - 0.04 * spans) * chord(nominal), rtol=1e-9)
-    np.testing.assert_allclose(thickness(shapes(member)), 1.1 * thickness(nominal), rtol=1e-12)
-    assert changed_blade(blade, {key: blade_number(blade, key) for key in changes}) == blade
-
-
-@pytest.mark.parametrize(
-    ("changes", "key", "message"),
-    [
-        ({"stagger_deg.hub": 45.0, "sweep_cm": 1.0}, "stagger_deg.hub", "span 0%: inlet_angle is 9"),
-        ({"camber_deg": 80.0, "stagger_deg": 5.0}, "camber_deg", "camber_deg and stagger_deg: span 0%"),
-        ({"chord_percent.tip": 5.0}, "chord_percent.tip", "found 5; allowed: number, at least 10"),
-    ],
-)
-def test_an_impossible_member_names_its_number(root, changes, key, message):
-    with pytest.raises(ImpossibleValueError, match=message) as refusal:
-        changed_blade(r37.blade("Ref", config=root / "config/config.yaml").settings, changes)
-    assert refusal.value.number.key == key
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"stagger_deg": 25}, "blade Ref: span 100%: no suction-side arc .*; where the blade's entry has stagger_deg, "),
-        ({"chord_percent": {"tip": 200}}, "blade Ref: span 100%: the plane section .* or thickness_percent, a smaller"),
-    ],
-)
-def test_a_shape_that_cannot_be_built_names_span_and_remedy(root, changes, message):
-    definition = r37.blade("Ref", config=root / "config/config.yaml", **changes).settings.definition
-    with pytest.raises(BladeShapeError, match=message):
-        definition.build(round_edges=True)

@@ -18,12 +18,9 @@ import xarray as xr
 import r37core
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.base.dataset_file import read_dataset
-from r37core.base.io import CarriedError, Named
+from r37core.base.io import CarriedError
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import SpeedPlan, plan_speeds
-from r37core.config import command_line_document
-from r37core.plans.sweep_plan import Sweep
-from r37core.product.extensions import read_settings
 from r37core.rom.rotation import BucklingError
 from r37core.stress.statistic import Strengths
 from r37core.sweep import counts, driver, parts
@@ -32,8 +29,6 @@ from r37core.sweep.driver import Driver
 from r37core.sweep.forks import forked_results
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.step_limit import UnstableStepError
-from r37studies.tolerances import steps
-from r37studies.tolerances.plan import Tolerances
 
 CHOICE = RefinementChoice(windows=(), prominence=0.1, largest_share=0.6)
 TASK = json.dumps({"height": 1.0})
@@ -110,30 +105,6 @@ def test_sweeps_share_their_speeds_and_a_broken_run_asks_for_the_same_ones(tmp_p
     next((tmp_path / "runs/b").glob("speed_1040-*.npz")).unlink()
     run(tmp_path, {"a": sweep, "b": low}, entry)
     assert run_speeds()[len(done) :] == ["1040"]
-
-
-def test_more_members_run_alone(root, tmp_path, sweep, run_speeds):
-    """Members that start from the nominal models; groups of one file have what they gave."""
-    response([]).assign_attrs(of="Ref").to_netcdf(tmp_path / "campbell.nc")
-    files = Named(models=2 * [str(tmp_path / "contact.npz")], campbell=str(tmp_path / "campbell.nc"))
-    where, output = Named(blade="Ref", scene="abradable"), Named(members=tmp_path / "tolerances/Ref/abradable/members.nc")
-
-    def run_members(members):
-        friction = {"friction.coefficient": {"uniform_percent": 5}}
-        changes = {"blades": ["Ref"], "scenes": ["abradable"], "speeds": [900, 1000]}
-        changes |= {"tolerances": {"members": members, "of_scenes": friction}}
-        plan = Tolerances(settings := read_settings(root, command_line_document(changes)))
-        params = {"sweeps": plan.sweeps(where), "speeds": plan.speeds(where), "structure": plan.structure(where)}
-        params |= {"about": plan.about(where), "provenance": Sweep(settings).provenance(where), "cores": 1}
-        output.members.parent.mkdir(parents=True, exist_ok=True)
-        steps.run(files, output, Named(**params))
-
-    run_members(2)
-    assert run_speeds() == 2 * ["900", "1000"]
-    run_members(4)
-    assert run_speeds()[4:] == 2 * ["900", "1000"]
-    assert read_dataset(output.members, group="3/response")["speed"].values.tolist() == [900.0, 1000.0]
-    assert read_dataset(output.members, group="3/campbell").attrs["of"] == "Ref"
 
 
 def test_histories_have_a_task_of_their_own(sweep):

@@ -7,7 +7,7 @@ import time
 import meshio
 import pytest
 from box_mesh import plate, write_deck, write_with_gmsh
-from defaults import MeshSource, Where
+from import_defaults import MeshSource, Where
 
 from r37core.fem.orientation import OURS
 from r37core.fem.write_mesh import write_mesh

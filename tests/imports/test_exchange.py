@@ -9,7 +9,8 @@ import gmsh
 import numpy as np
 import pytest
 from box_mesh import TITANIUM, plate, write_deck, write_with_gmsh
-from defaults import MeshSource, Orientation, Where
+from defaults import Orientation
+from import_defaults import MeshSource, Where
 from pydantic import TypeAdapter, ValidationError
 from scipy import constants
 

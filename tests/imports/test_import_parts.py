@@ -1,5 +1,6 @@
 """The parts of an import at their borders; a wrong sense of rotation is told from the tip's geometry, and refused."""
 
+import json
 import warnings
 from contextlib import nullcontext
 from dataclasses import replace
@@ -9,8 +10,10 @@ import numpy as np
 import pytest
 import pyvista
 from box_mesh import box_mesh, plate
-from defaults import MatricesSource, MeshSource, Orientation, Where
+from defaults import Orientation
+from import_defaults import MatricesSource, MeshSource, Where
 
+from r37core.base.plain import from_plain, to_plain
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.sense import check_profile_sense, sense_of_line, sense_of_profile
 from r37core.config import ConfigError
@@ -291,3 +294,12 @@ def test_a_rule_that_cuts_a_smooth_face_is_refused(limit, taken):
     message = r"root: .* caught [1-8] of the 9 faces that look towards the axis: widen it, or take .* with end_check: false"
     with nullcontext() if taken else pytest.raises(ImportRefused, match=message):
         ends.check_end("root", where, caught, end, mesh.points, surface)
+
+
+CONE = Where(limits=(("r", "at_least", 0.2),), cone_zr=((0.0, 0.1), (0.2, 0.3)))
+SOURCES = [MeshSource("blade.inp", OURS, Where(("ROOT",)), CONE), MatricesSource("folder", OURS)]
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=lambda source: type(source).__name__)
+def test_jobs_get_sources_as_they_are(source):
+    assert from_plain(type(source), json.loads(json.dumps(to_plain(source)))) == source

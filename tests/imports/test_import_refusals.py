@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import yaml
 from box_mesh import TITANIUM, box_mesh, plate, write_deck, write_with_gmsh
-from defaults import MeshSource, Orientation, Where
+from defaults import Orientation
+from import_defaults import MeshSource, Where
 from pydantic import ValidationError
 
 from r37core.fem.elements import ELEMENTS

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 from box_mesh import write_deck
-from defaults import Where
+from import_defaults import Where
 from workflow_runs import overlay
 
 from r37core.base.plain import to_plain

@@ -13,9 +13,13 @@ import pytest
 import pyvista
 import scipy.sparse as sp
 from box_operator import box_operator
-from defaults import MatricesSource, Orientation
+from defaults import Orientation
+from import_defaults import MatricesSource
+from test_refinement import PLACE, RAD_S, on_command_line
 
+from r37core.base.speeds import exact_text
 from r37core.fem.orientation import OURS
+from r37core.plans.sweep_plan import Sweep
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.speed_file import write_speed
@@ -23,6 +27,7 @@ from r37imports.importing.matrices_in import import_matrices, wording
 from r37imports.importing.matrix_file import read_matrix
 from r37imports.refusal import ImportRefused, MeshWarning
 from r37studies.exports.matrices_out import write_full_matrices, write_reduced_matrices
+from r37studies.exports.plan import Exports
 from r37studies.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 
 NAMES = {"M.mtx", "K_0.mtx", "K_1000.mtx", "K_2000.mtx", "boundary.csv"}
@@ -380,3 +385,10 @@ def test_matrices_of_other_programs(tmp_path, header, message):
         read_matrix(tmp_path / "M.mtx")
     (tmp_path / "M.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n" + rows)
     assert read_matrix(tmp_path / "M.mtx").sum() == 24 * 4.0 + 2 * 23
+
+
+def test_exports_name_speeds_in_rpm(root):
+    settings = on_command_line(root, speeds_rpm=[8000, 9000], exports={"stress_speeds_rpm": [9000]})
+    exported = Exports(Sweep(settings))
+    assert not exported.only_worst(PLACE)
+    assert exported.speed_files(PLACE) == [f"<results>/Ref/direct/speed_{exact_text(9000 * RAD_S)}.npz"]

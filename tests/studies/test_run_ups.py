@@ -8,8 +8,9 @@ import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, LINING, oscillator, with_static_modes
-from integration_runs import ENGINES, RUN_UPS
+from integration_runs import ENGINES
 from reference_engine import ReferenceSimulation
+from reference_run_up import RUN_UPS
 from scipy.integrate import solve_ivp
 from scipy.special import wofz
 

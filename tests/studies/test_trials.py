@@ -400,7 +400,7 @@ stability: { blade: Ref, scenes: [direct], extremes: [damping_ratio] }
 
 
 @pytest.mark.slow
-def test_all_presets(root, drawn, tmp_path):  # noqa: F811
+def test_all_presets(root, drawn, tmp_path):
     """The mesh of another program stays as it is; contact nodes and runs vary. Extremes are of a blade that is meshed."""
     project = with_example(root, drawn, tmp_path, copy_project)
     overlay(project, "config.yaml", PRESETS)
@@ -438,3 +438,14 @@ def test_all_presets(root, drawn, tmp_path):  # noqa: F811
     assert 0.01 < costs.loc["start-up", "core_s_per_simulation"] < 2.0
     for name in ("tradeoff", "tradeoff_growth", "tradeoff_boundary_nodes", "tradeoff_revolutions", "stability", "estimate"):
         assert (project / f"results/figures/{name}.png").exists() and (project / f"results/figures/{name}.pdf").exists()
+
+
+def test_extremes_of_clearance_and_lobes_are_those_of_lobes_in_clearances(config_copy):
+    """Otherwise, nothing would touch at the largest clearance."""
+    cases = stability.cases(read_settings(config_copy))
+    assert cases["clearance_0.01__direct"].scene.casing.lobe_height == pytest.approx(2e-2)
+    assert cases["ovalisation_in_clearances_10__direct"].scene.casing.lobe_height == pytest.approx(3.56e-3)
+    assert cases["damping_ratio_0.1__direct"].scene.casing.height == 7.12e-4
+    overlay(config_copy, "config.yaml", "scenes: [growing_direct]")
+    growing = stability.cases(read_settings(config_copy))["clearance_0.01__growing_direct"].scene.casing
+    assert (growing.clearance, growing.lobe_height) == (0.01, pytest.approx(2e-2))

@@ -13,8 +13,6 @@ from call_counts import calls_of
 from stubbed_runs import copy_stubbed
 from workflow_runs import overlay, planned_outputs, snakemake
 
-import r37
-from r37.call_settings import call_of
 from r37core.base.plain import to_plain
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, command_line_document, plain
@@ -286,24 +284,6 @@ def test_the_schema_for_editors_knows_bases(config_copy):
             jsonschema.validate(entries | {"X": {"casing": {"clearance_m": 1e-3}, "lining": {"thickness_m": 1}}}, schema)
 
 
-def test_a_changed_scene_in_python_is_alone(config_copy):
-    """What starts from it stays as it is; None takes away what the base has, too, and the base may be another one."""
-    file = config_copy / "config/scenes.yaml"
-    shipped = {name: r37.scene(name, file=file).entry for name in r37.scenes(file=file)}
-    assert shipped["material_abradable"].lining.bar_width_m is None and shipped["direct"].lining is None
-    bare = r37.scene("abradable", file=file, lining=None, friction={"form": "vector"}, results=["stress"])
-    assert bare.entry == shipped["direct"].model_copy(update={"results": ["stress"]})
-    for options in ({}, {"name": "Mine"}):
-        bare = r37.scene("material_abradable", file=file, lining=None, results=["stress"], **options)
-        assert bare.entry == shipped["direct"].model_copy(update={"results": ["stress"]})
-        flexible = r37.scene("direct", file=file, base="elastic_abradable", **options)
-        assert flexible.entry == shipped["elastic_direct"].model_copy(update={"results": shipped["direct"].results})
-    with pytest.raises(ConfigError, match=r'^r37\.scene\("direct"\): direct\.base: found \'none\'; allowed: another scene of'):
-        r37.scene("direct", file=file, base="none")
-    with pytest.raises(ConfigError, match=r"material_abradable\.lining\.thickness_m: found -1"):
-        r37.scene("material_abradable", file=file, **{"lining.thickness_m": -1})
-
-
 CASING = "casing: { clearance_m: 4.0e-4, lobes: 2, width: 0.15, amplitude_m: 7.0e-4 }"
 LINING = "lining: { thickness_m: 0.005, elastic_modulus_pa: 2.0e+10, plastic_modulus_pa: 5.0e+9, yield_stress_pa: 1.5 }"
 ROOM = (
@@ -501,13 +481,3 @@ def test_each_family_has_a_map_in_the_explorer():
     families = compared_in(pd.concat([one, other, single]))
     assert families["Single"].keys == KEYS[:1]
     assert families["Other"].scenes == tuple(other["scene"])
-
-
-def test_families_from_python(config_copy):
-    """Of a blade and of a scene, which a run takes as it takes single ones."""
-    config = config_copy / "config/config.yaml"
-    scene = r37.scene("direct", config=config, name="Rooms", vary={"casing.clearance_m": [3e-4, 4e-4]})
-    blade = r37.blade("S100", config=config, name="Sweep", vary={"sweep_percent": [50, 100]})
-    call = call_of("r37.run", [blade], [scene], {"speeds": [1150]}, config=config, fidelity=None, whole=True)
-    assert call.settings.blade_names == ["Sweep_50", "Sweep_100"]
-    assert call.settings.scene_names == ["Rooms_0p0003", "Rooms_0p0004"]

@@ -1,0 +1,14 @@
+"""Run-ups by each of the two engines."""
+
+from reference_engine import ReferenceSimulation
+
+from r37studies.run_ups.integration import RunUpIntegration
+
+
+class ReferenceRunUp(RunUpIntegration):
+    """A run-up by the reference engine."""
+
+    simulation_class = ReferenceSimulation
+
+
+RUN_UPS = {"compiled": RunUpIntegration, "reference": ReferenceRunUp}

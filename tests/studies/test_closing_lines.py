@@ -1,0 +1,88 @@
+"""Closing lines of the studies."""
+
+import numpy as np
+import xarray as xr
+from test_closing import STRESS, WHERE, table
+
+from r37studies.designs import table as designs
+from r37studies.rotors import dataset as rotors
+from r37studies.run_ups import tables as run_ups
+from r37studies.search import dataset as search
+from r37studies.signals import dataset as signals
+from r37studies.tolerances import table as tolerances
+
+
+def test_run_ups(tmp_path):
+    numbers = {"yield_stress_pa": [1.38e9] * 2, "largest_stress_speed_rad_s": [1718.2, np.nan]}
+    table(tmp_path, "run_ups.csv", **WHERE, **STRESS, **numbers, status=["completed", "diverged"])
+    largest = "the largest stress 2.31 GPa, Ref in lined at 1718.2 rad/s"
+    assert run_ups.closing(tmp_path) == f"2 run-ups, 1 of them above yield, 1 diverged; {largest}"
+    table(tmp_path, "run_ups.csv", **WHERE, status=["completed"] * 2)
+    assert run_ups.closing(tmp_path) == "2 run-ups"
+
+
+def test_rotors(tmp_path):
+    numbers = {"worst_speed_rad_s": [1640.0, 1650.0], "speeds": [2, 3]}
+    for diverged, said in (([0, 0], ""), ([0, 3], ", 3 of 5 runs diverged")):
+        table(tmp_path, "rotors.csv", **WHERE, **STRESS, **numbers, diverged_speeds=diverged)
+        assert rotors.closing(tmp_path) == f"2 rotors{said}; the largest stress 2.31 GPa, Ref in lined at 1640 rad/s"
+
+
+def test_designs(tmp_path):
+    """Those that cannot be told apart are counted, and the number that the choice among them is made by is told."""
+    lengths = {"length_most_revolutions_rad_s": [40.0, 13.2, np.nan], "length_some_revolutions_rad_s": [50.0, 20.0, np.nan]}
+    more = {"length_most_revolutions_within_rad_s": [20.0, 10.0, np.nan], "largest_goodman_share": [0.4, 0.55, np.nan]}
+    more["diverged_runs"] = [0, 0, 0]
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
+    assert designs.closing(tmp_path) == "2 designs; lined: B is above yield in most revolutions at the fewest speeds (13 rad/s)"
+    more["length_most_revolutions_within_rad_s"] = [25.0, 10.0, np.nan]
+    more["largest_stress_over_yield"] = [np.nan, 3.0, np.nan]
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
+    tied = "2 designs; lined: 2 of 2 cannot be told apart by their speeds above yield in most revolutions; of these "
+    assert designs.closing(tmp_path) == tied + "A has the least share of the Goodman line (0.4)"
+    # one that diverged has no largest share
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=3 * ["lined"], **lengths, **more | {"diverged_runs": [1, 0, 0]})
+    assert designs.closing(tmp_path).endswith("of these B has the least share of the Goodman line (0.55)")
+    del more["largest_goodman_share"]
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
+    assert designs.closing(tmp_path) == tied + "B has the least stress over yield (3)"
+    del more["largest_stress_over_yield"]
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
+    assert designs.closing(tmp_path) == tied.removesuffix("; of these ")
+
+
+def test_tolerances(tmp_path):
+    ends = {"largest_stress_pa_low": [2.02e9, np.nan], "largest_stress_pa_high": [1.41e10, np.nan]}
+    xr.Dataset({"status": (("member", "speed"), [[0, 1, 2], [0, 0, 2]])}).to_netcdf(tmp_path / "tolerances.nc")
+    table(tmp_path, "tolerances.csv", **WHERE, members=[32, 32], robust=[True, False], **ends)
+    count, largest = "1 of them in at least half of those; 1 of 4 runs diverged", "the largest stress 2 to 14 GPa, Ref in lined"
+    assert tolerances.closing(tmp_path) == f"2 interactions in up to 32 members, {count}; {largest}"
+    table(tmp_path, "tolerances.csv", **{name: [] for name in (*WHERE, "members", "robust", *ends)})
+    assert tolerances.closing(tmp_path).startswith("0 interactions in up to 0 members")
+
+
+def test_signals(tmp_path):
+    for speeds, said in (([1725.0], "1 signal at 1725 rad/s"), ([1725.0, 1330.0], "2 signals at 1330 to 1725 rad/s")):
+        xr.Dataset({"speed": ("run", speeds)}).to_netcdf(tmp_path / "signals.nc")
+        assert signals.closing(tmp_path) == said
+    xr.Dataset().to_netcdf(tmp_path / "signals.nc")
+    assert signals.closing(tmp_path) == "no signal, for no interaction was found"
+
+
+def test_search(tmp_path):
+    axes = ("design", "objective")
+    values = {"objective_value": (axes, [[70.6, 2.0], [13.24, 2.1], [90.0, 1.0]])}
+    values |= {"objective_scatter": (axes, [[0.6, 0.0], [0.5, 0.0], [1.0, 0.0]]), "feasible": ("design", [1, 1, 0])}
+    units = {"objective_unit": ("objective", ["rad s-1", "kg"])}
+    names = {"design": ["start", "d0001", "d0002"], "objective": ["lined", "mass"]}
+    found = xr.Dataset(values | {"order": ("design", [0, 1, 0])}, names | units)
+    found.to_netcdf(tmp_path / "search.nc")
+    said = search.closing(tmp_path).replace(str(tmp_path), "results")
+    best = "the best, d0001: lined 13.2 rad/s (the start 70.6), mass 2.1 kg (the start 2)"
+    assert said == f"2 designs, 1 of them keep all constraints; {best}; its values are in results/search.csv"
+    found.assign(feasible=("design", [1, 1, 1]), objective_scatter=20.0 * found["objective_scatter"] + 99.0).to_netcdf(
+        tmp_path / "search.nc"
+    )
+    assert "; 1 other cannot be told apart from it; its values" in search.closing(tmp_path)
+    found.assign(order=("design", [0, 0, 0])).to_netcdf(tmp_path / "search.nc")
+    assert search.closing(tmp_path) == "2 designs, 1 of them keep all constraints"
