@@ -11,5 +11,6 @@ rule step:
     # MB; reduced models alone need more. Under a limit (--resources mem_mb=...) only as many jobs run as fit
     resources:
         mem_mb=500,
+    # absolute: rules of other folders take it over, where a relative path would start
     script:
-        "../scripts/step.py"
+        str(SCRIPTS / "step.py")

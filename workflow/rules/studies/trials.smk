@@ -60,4 +60,4 @@ for name, preset in PRESETS.items():
             reasons=partial(trials.reasons, name),
             values=lambda wildcards, preset=preset: preset.values(settings, simulations_of_members(settings)),
         script:
-            "../scripts/step.py"
+            str(SCRIPTS / "step.py")
