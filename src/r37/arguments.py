@@ -1,13 +1,11 @@
 """Speeds and other numbers as arguments of a call."""
 
 from collections.abc import Iterable, Mapping
-from itertools import islice
 from typing import Any
 
 import numpy as np
 
 from r37core.base.io import write_text
-from r37core.base.speeds import LARGEST_NUMBER
 from r37core.config import ConfigError
 from r37core.config.messages import single_line
 from r37core.machine_code.kept import kept_for_user, named_folder
@@ -26,7 +24,7 @@ def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
         several = [several]
     if isinstance(several, str | bytes) or not isinstance(several, Iterable):
         raise ConfigError(f"{key}: found {single_line(repr(several))}; allowed: a list of numbers and ranges, in {unit}")
-    return {key: plain_value(finite(several, key))}
+    return {key: plain_value([*several])}
 
 
 def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
@@ -60,14 +58,6 @@ def plain_value(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.item() if value.size == 1 else value.tolist()
     return value.item() if isinstance(value, np.generic) else value
-
-
-def finite(several: Iterable[Any], key: str) -> list[Any]:
-    """The items of what may have no end. Raises ConfigError for more than there can be speeds."""
-    items = list(islice(several, LARGEST_NUMBER + 1))
-    if len(items) > LARGEST_NUMBER:
-        raise ConfigError(f"{key}: found more than {LARGEST_NUMBER} values; allowed: at most as many")
-    return items
 
 
 def number(value: Any, key: str, unit: str) -> float:

@@ -18,7 +18,6 @@ from r37core.config.messages import single_line
 from r37core.config.remarks import remarks_at_end, remarks_on_input
 from r37core.product.extensions import EXTENSIONS, READER
 
-from .arguments import finite
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, Choice, SceneChoice, scenes_named
 
@@ -113,7 +112,7 @@ def call_of(
             kind, design = families[0].kind, next(iter(families[0].designs.families[families[0].name].designs))
             raise ConfigError(f"{kind}: found the family {families[0].name}; allowed: a {kind}, such as {design}")
     level = {} if fidelity is None else {"fidelity": fidelity}
-    asked = None if results is None else finite(results, "results")
+    asked = None if results is None else [*results]
     return Call(caller, base, blade_choices, scene_choices, {**keys, **level}, asked, whole)
 
 
@@ -135,7 +134,7 @@ def several(value: Any, kind: type[Choice]) -> list[Any] | None:
     if isinstance(value, bytes | type) or not isinstance(value, Iterable):
         allowed = f"the name of a {name}, or what r37.{name} gives, or a list of them"
         raise ConfigError(f"{name}s: found {single_line(repr(value))}; allowed: {allowed}")
-    choices = finite(value, f"{name}s")
+    choices = list(value)
     if not choices:
         raise ConfigError(f"{name}s: found none; allowed: at least one")
     return choices

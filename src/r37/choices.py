@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
@@ -96,26 +96,8 @@ class Choice:
 
     def check(self) -> None:
         """Raises ConfigError for what the entry cannot be."""
-        try:
-            if self.name not in self.designs.names:
-                raise _unknown(self.kind, self.name, self.designs.names, self.file)
-            self._check_entry()
-        except ConfigError as error:
-            raise self._refusal(error) from None
-
-    def _check_entry(self) -> None:
-        """Raises ConfigError for what its file's model does not check."""
-
-    def _refusal(self, error: ConfigError) -> ConfigError:
-        """The error, with how a value inside a section is written in Python where one stands in place of the section."""
-        for key, value in self.changes.items():
-            _, replaced, keys = str(error).partition(f".{key}: found {plain_value(value)!r}; allowed: mapping with the keys ")
-            for inner in map(str.strip, keys.split(",")) if replaced else ():
-                others = {other: kept for other, kept in self.changes.items() if other != key}
-                with contextlib.suppress(ConfigError):
-                    replace(self, changes={**others, f"{key}.{inner}": value}).check()
-                    return ConfigError(f'{error}; of one of them: **{{"{key}.{inner}": {plain_value(value)!r}}}')
-        return error
+        if self.name not in self.designs.names:
+            raise _unknown(self.kind, self.name, self.designs.names, self.file)
 
 
 @dataclass(frozen=True)
@@ -132,7 +114,9 @@ class BladeChoice(Choice):
         """Shape and material of the blade, which is no family, in SI units. Raises ConfigError."""
         return blade_settings(self.name, self.designs.entries, self.configuration.root, self.designs.document)
 
-    def _check_entry(self) -> None:
+    def check(self) -> None:
+        """Raises ConfigError for what the entry cannot be."""
+        super().check()
         if not self.is_family:
             _ = self.settings
 

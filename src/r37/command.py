@@ -153,11 +153,9 @@ def _check_output(file: Path | None) -> None:
         return
     allowed = "allowed: a file in a folder that is there and can be written"
     try:
-        if not file.name or file.is_dir():
-            raise r37.ConfigError(f"--output: found {str(file)!r}, a folder; {allowed}")
         # what is moved into the place of a device or a pipe takes it away from others
-        if file.exists() and not file.is_file():
-            raise r37.ConfigError(f"--output: found {file}, a device or a pipe; {allowed}")
+        if not file.name or (file.exists() and not file.is_file()):
+            raise r37.ConfigError(f"--output: found {str(file)!r}, a folder, device or pipe; {allowed}")
         with tempfile.NamedTemporaryFile(dir=file.parent, prefix=f".{file.name[:100]}"):
             pass
     except OSError as error:

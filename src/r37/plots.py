@@ -111,7 +111,7 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
     """Figure of motion, stress and wear in every revolution of run-ups of one blade in one scene.
 
     Args:
-        run_ups: The dataset run_ups of a run, or one run of it.
+        run_ups: The dataset run_ups of a run, or a part of its runs.
         title: Title in place of the names that the figure has by default.
 
     Returns:
@@ -127,15 +127,13 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
         'run-ups: Ref, abradable, leading edge'
     """
     _check("run_ups", run_ups, "rate", 'r37.run(..., run_ups=...)["run_ups"]')
-    several = run_ups if "run" in run_ups.dims else run_ups.expand_dims("run")
-    # a single run has its labels without the dimension
-    labels = [name for name in ("blade", "scene", "run_up") if name in several.coords]
-    several = several.assign_coords({name: ("run", several[name].values.reshape(-1)) for name in labels})
-    pairs = sorted(set(zip(*(map(str, several[name].values) for name in ("blade", "scene")), strict=True)))
+    if "run" not in run_ups.dims:
+        raise ConfigError("run_ups: found a run without its dimension; allowed: several, or one of them by isel(run=[0])")
+    pairs = sorted(set(zip(*(map(str, run_ups[name].values) for name in ("blade", "scene")), strict=True)))
     if len(pairs) > 1:
         raise ConfigError(f"run_ups: found runs of {', '.join(map(' in '.join, pairs))}; allowed: of one blade in one scene")
     ((blade, scene),) = pairs
-    return _drawn("r37studies.run_ups.figures.draw_run_ups", several, title or f"{blade}, {scene}", blade=blade, scene=scene)
+    return _drawn("r37studies.run_ups.figures.draw_run_ups", run_ups, title or f"{blade}, {scene}", blade=blade, scene=scene)
 
 
 @stages()

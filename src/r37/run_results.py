@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Generic, TypeVar
 
@@ -29,16 +30,14 @@ class FilesByName(Mapping[str, Content], Generic[Content]):
     """
 
     def __init__(self, folder: Path, suffix: str, kind: str, read: Callable[[Path], Content], temporary: object = None):
-        self._folder, self._suffix, self._kind, self._reader, self._temporary = folder, suffix, kind, read, temporary
-        self._read: dict[str, Content] = {}
+        self._folder, self._suffix, self._kind, self._read, self._temporary = folder, suffix, kind, cache(read), temporary
 
     def __getitem__(self, name: str) -> Content:
         if name not in set(self):
-            told = f"found '{name}'; allowed: {', '.join(self)} ({self._kind} in {self._folder}){did_you_mean(name, self)}"
-            raise KeyError(told + self._elsewhere(name))
-        if name not in self._read:
-            self._read[name] = self._reader(self._folder / f"{name}{self._suffix}")
-        return self._read[name]
+            raise KeyError(
+                f"found '{name}'; allowed: {', '.join(self)} ({self._kind} in {self._folder}){did_you_mean(name, self)}"
+            )
+        return self._read(self._folder / f"{name}{self._suffix}")
 
     def __iter__(self) -> Iterator[str]:
         return iter(sorted(file.stem for file in self._folder.glob(f"[!.]*{self._suffix}")))
@@ -49,10 +48,6 @@ class FilesByName(Mapping[str, Content], Generic[Content]):
     def __repr__(self) -> str:
         return f"{type(self).__name__}({str(self._folder)!r}): {', '.join(self)}"
 
-    def _elsewhere(self, name: str) -> str:
-        """Where else something of this name is, for a message."""
-        return ""
-
 
 class RunResults(FilesByName[xr.Dataset]):
     """Datasets of a run by name (campbell, rms, stress, wear, run_ups, rotor, tolerances, search, ...), and its `tables`.
@@ -62,26 +57,20 @@ class RunResults(FilesByName[xr.Dataset]):
     """
 
     def __init__(self, folder: Path, temporary: object = None):
-        super().__init__(folder, ".nc", "datasets", read_dataset, temporary)
+        super().__init__(folder, ".nc", "datasets, next to results.tables,", read_dataset, temporary)
         self.folder = folder
         self.tables = FilesByName(folder, ".csv", "tables", _table, temporary)
         """Tables by name (summary, ranking, designs, run_ups, run_up_rates, rotors, tolerances, search, coincidences)."""
 
-    def _elsewhere(self, name: str) -> str:
-        return f'; there is a table of this name: results.tables["{name}"]' if name in self.tables else ""
-
     @property
     def summary(self) -> pd.DataFrame:
-        """summary.csv: one row per interaction. Raises InputFileError where it cannot be read."""
-        return self._there("summary")
+        """summary.csv: one row per interaction. Raises KeyError without one, InputFileError where it cannot be read."""
+        return self.tables["summary"]
 
     @property
     def ranking(self) -> pd.DataFrame:
-        """ranking.csv: one row per blade and scene, the best blade first. Raises InputFileError where it cannot be read."""
-        return self._there("ranking")
-
-    def _there(self, table: str) -> pd.DataFrame:
-        return self.tables[table] if table in self.tables else _table(self.folder / f"{table}.csv")
+        """ranking.csv: one row per blade and scene, the best blade first. Raises as `summary` does."""
+        return self.tables["ranking"]
 
     def response(self, blade: str, scene: str) -> xr.Dataset:
         """response.nc of one blade in one scene, as `r37.sweep` gives it. Raises InputFileError where it cannot be read."""

@@ -108,7 +108,7 @@ class _Report:
     def __init__(self, settings: Settings):
         self._settings = settings
         self._stages = structure_stages(Sweep(settings))
-        self._told: set[tuple[str, ...]] = set()
+        self._told: set[str] = set()
         self._failures: list[dict[str, str]] = []
         self._messages: list[str] = []
         self._texts: list[str] = []
@@ -137,15 +137,15 @@ class _Report:
         """Say once what a stage does for a blade, and how many simulations a blade and scene have."""
         blade, scene = wildcards.get("blade", ""), wildcards.get("scene", "")
         if rule in self._stages:
-            self._tell((rule, blade), f"{blade}: {self._stages[rule].title}")
+            line = f"{blade}: {self._stages[rule].title}"
         elif rule == "simulate":
             plan = self._settings.speed_plans[blade, scene]
             number = f"at least {len(plan.certain)}" if plan.refined else str(len(plan.certain))
-            self._tell((rule, blade, scene), simulations_in_words(self._settings, blade, scene, number))
-
-    def _tell(self, what: tuple[str, ...], line: str) -> None:
-        if what not in self._told:
-            self._told.add(what)
+            line = simulations_in_words(self._settings, blade, scene, number)
+        else:
+            return
+        if line not in self._told:
+            self._told.add(line)
             LOGGER.info("%s", line)
 
     def error(self, folder: Path) -> Exception:

@@ -1,6 +1,5 @@
 """The package r37: what it gives is what the workflow gives, what takes long is kept, and bad input has one clear message."""
 
-import itertools
 import os
 import re
 import runpy
@@ -215,7 +214,7 @@ REFUSED = {
     r'r37.scene\("direct"\): .*unknown key lining_m': scene(lining_m=1),
     r'r37\.scene\("direct"\): direct: found unknown key linning; .* \(did you mean lining\?\)': scene(linning=None),
     r'r37.scene\("direct"\): direct.friction.coefficient: found -1': scene(**{"friction.coefficient": -1}),
-    r'direct.friction: found 0.2; allowed: mapping .* of one of them: \*\*\{"friction.coefficient": 0.2\}': scene(friction=0.2),
+    r"direct.friction: found 0.2; allowed: mapping with the keys ": scene(friction=0.2),
     "abradable.results: found wear; allowed: only in a scene with a lining": call("scene", "abradable", lining=None),
     r"direct\.rotor: missing key blades": scene(**{"rotor.blades": None}),
     "found the key 1 twice, as a number and a text": scene(rotor={"blades": 3, "longer_m": {1: 1e-5, "1": 2e-5}}),
@@ -237,21 +236,20 @@ REFUSED = {
     "r37.sweep: speeds: found 5 rad/s twice": call("sweep", "Ref", "direct", [5, {"start": 4, "stop": 5, "step": 1}]),
     "speeds: found .*; allowed: .* at least 1": call("sweep", "Ref", "direct", []),
     "speeds: found neither; allowed: speeds, in rad/s, or speeds_rpm": call("sweep", "Ref", "direct"),
-    "speeds: found more than 100000 values; allowed: at most as many": call("sweep", "Ref", "direct", itertools.count(1)),
     r"r37.sweep: speeds.0: found unknown key stpo; .* \(did you mean stop\?\)": call(
         "sweep", "Ref", "direct", {"start": 1, "stpo": 9}
     ),
     "speeds: found b'Ref'; allowed: a list": call("sweep", "Ref", "direct", b"Ref"),
     "cores: found 0; allowed: a whole": call("sweep", "Ref", "direct", [9], cores=0),
-    "blades?: found more than 100000 values; allowed: at most as many": run(itertools.cycle(["Ref"])),
     r'blades: found Ref, chordwise_sweep_deg=5; allowed: names that differ, as of r37.blade\("Ref", ..., name="Mine"\)': (
         lambda: r37.run(["Ref", r37.blade("Ref", chordwise_sweep_deg=5)], "direct", [9])
     ),
     "blades: found 3; allowed: the name of a blade, or what r37.blade gives, or a list of them": run(3),
     "blades: found none": run([]),
     "scenes: found none": run(scenes=[]),
-    r'found 36; .*rotor.blades": 36': call("scene", "abradable", rotor=36, results=["stress"]),
-    "results: found signal with a rotor": call("scene", "abradable", rotor={"blades": 2}, results=["signal"]),
+    "results: found signal; allowed: only in a scene without rotor": call(
+        "scene", "abradable", rotor={"blades": 2}, results=["signal"]
+    ),
     "vary: found .*50.*; allowed: mapping": call("blade", "S100", vary=[50], name="Some"),
     "blade: found the family Some; allowed: a blade, such as Some_50": lambda: r37.campbell(
         r37.blade("S100", vary={"sweep_percent": [50]}, name="Some")
