@@ -502,7 +502,6 @@ def test_the_ranking_has_a_length_in_each_other_region(datasets, tmp_path):
         column = column_named(name, RANKING)
         assert column and region in column.title
     assert np.isnan(table.loc["Odd", "length_most_revolutions_box_rad_s"])
-    assert column_named("length_most_revolutions_worst_rad_s", RANKING).title.endswith("worst motion")
 
 
 def test_the_summary_has_the_place(responses):

@@ -19,7 +19,6 @@ from r37core.figures.response_curves import draw_response
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.remarks import remarks
-from r37core.results.other_motions import ranking_with_motions, summary_with_motions
 from r37core.rom.contact_model import write_contact_model
 from r37core.stress.statistic import UNKNOWN
 from r37core.time_integration.carrying import END_WEAR
@@ -30,6 +29,7 @@ from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import OF_RUNS, run_speed
 from r37core.time_integration.status import MotionKind, RunStatus
 from r37studies.second_motions import steps
+from r37studies.second_motions.added import ranking_with_motions, summary_with_motions
 from r37studies.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
 from r37studies.second_motions.dataset import dwell_dataset, pair_motions
 from r37studies.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
@@ -353,28 +353,34 @@ def motions(tmp_path):
     return dataset.reindex(blade=["Ref", "S100"])
 
 
-def test_the_worst_motion_stands_in_the_ranking(motions):
+@pytest.fixture
+def motions_file(motions, tmp_path):
+    motions.to_netcdf(tmp_path / "second_motions.nc")
+    return tmp_path / "second_motions.nc"
+
+
+def test_the_worst_motion_stands_in_the_ranking(motions_file):
     ranking = pd.DataFrame({"blade": ["Ref", "S100"], "scene": "direct", "rank": [1, 2]})
-    table = ranking_with_motions(ranking, motions)
+    table = ranking_with_motions(ranking, motions_file)
     # half of the way from one speed to the next on both sides
     lengths = [f"length_most_revolutions_{name}_rad_s" for name in ("rest", "worst")]
     assert table.loc[0, [*lengths, "largest_rms_worst_m", "rank_worst"]].tolist() == pytest.approx([0.0, 15.0, 4e-3, 1])
     assert table.loc[1, [lengths[1], "rank_worst"]].isna().all()
     # from rest at more speeds
     for from_rest, worst in ((5.0, 15.0), (20.0, 20.0)):
-        longer = ranking_with_motions(ranking.assign(length_most_revolutions_rad_s=from_rest), motions)
+        longer = ranking_with_motions(ranking.assign(length_most_revolutions_rad_s=from_rest), motions_file)
         assert longer[lengths[1]].tolist() == pytest.approx([worst, np.nan], nan_ok=True)
     assert table["carried_revolutions"].tolist() == pytest.approx([100.0, np.nan], nan_ok=True)
 
 
-def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions):
+def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions_file):
     summary = pd.DataFrame({"blade": "Ref", "scene": "direct", "peak_speed_rad_s": [500.0, 990.0, 1100.0]})
-    table = summary_with_motions(summary, motions)
+    table = summary_with_motions(summary, motions_file)
     assert table["second_motion"].tolist() == ["", "up", ""]
     assert table.loc[1, "second_motion_speed_rad_s"] == 1010.0
     assert table.loc[1, "second_motion_rms_normal_m"] == pytest.approx(0.8e-3)
     assert table.loc[1, "second_motion_rest_rms_normal_m"] == pytest.approx(0.2e-3)
-    far = summary_with_motions(summary.assign(peak_speed_rad_s=[500.0, 700.0, 1400.0]), motions)
+    far = summary_with_motions(summary.assign(peak_speed_rad_s=[500.0, 700.0, 1400.0]), motions_file)
     assert set(far["second_motion"]) == {""}
 
 
@@ -439,9 +445,11 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
     assert (len(shaded.axes[0].patches), len(plain.axes[0].patches)) == (3, 0)
 
 
-def test_a_motion_that_diverges_is_the_second_motion(motions):
+def test_a_motion_that_diverges_is_the_second_motion(motions, tmp_path):
     motions["motion_mean"].loc[{"blade": "Ref", "motion": UP, "speed": 1005.0}] = np.nan
-    table = summary_with_motions(pd.DataFrame({"blade": ["Ref"], "scene": "direct", "peak_speed_rad_s": [1000.0]}), motions)
+    motions.to_netcdf(tmp_path / "second_motions.nc")
+    summary = pd.DataFrame({"blade": ["Ref"], "scene": "direct", "peak_speed_rad_s": [1000.0]})
+    table = summary_with_motions(summary, tmp_path / "second_motions.nc")
     assert table.loc[0, ["second_motion", "second_motion_speed_rad_s"]].tolist() == ["up", 1005.0]
 
 

@@ -18,19 +18,20 @@ from r37core.base.io import InputFileError
 from r37core.base.speeds import RefinedRange
 from r37core.config import ConfigError, Document
 from r37core.config.spread import SpreadEntry
+from r37core.explorer.contents import as_ranges_bear
 from r37core.figures import style
 from r37core.product.extensions import read_settings
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.columns import INTERACTIONS, names
 from r37core.results.danger import danger_of, ratio_to_yield
 from r37core.results.interactions import find_interactions
-from r37core.results.ranges import ranged_summary, read_ranges
 from r37core.time_integration.status import RunStatus
 from r37studies.member_values import sobol_points
 from r37studies.tolerances.dataset import tolerances_dataset
 from r37studies.tolerances.figures import draw_tolerances
 from r37studies.tolerances.members import members_of
 from r37studies.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
+from r37studies.tolerances.ranges import ranged_summary, read_ranges
 from r37studies.tolerances.table import _matched, range_table, ranges
 
 
@@ -431,11 +432,11 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path, blade):
     rows = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4), (990.0, 0.004, 6))}, InteractionChoice())
     range_table([(blade, "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
     summary = pd.DataFrame([{"blade": name, "scene": "lined", **one} for name in (blade, "L50") for one in nominal])
-    joined = ranged_summary(summary.astype({"engine_order": "Int64"}), table := read_ranges(tmp_path / "tolerances.csv"))
+    joined = ranged_summary(summary.astype({"engine_order": "Int64"}), tmp_path / "tolerances.csv")
     assert len(joined) == len(summary)
     assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
     assert joined["peak_speed_rad_s_median"].dropna().tolist() == [1710.0]
-    joined = ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), table)
+    joined = ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), tmp_path / "tolerances.csv")
     assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
 
 

@@ -15,10 +15,11 @@ from r37core.results.closing import interaction_title
 from r37core.results.columns import MOST_REVOLUTIONS
 from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined
 from r37core.results.measures import motion
-from r37core.results.other_motions import swept, worst_exceedance
+from r37core.results.other_motions import swept
 from r37core.results.ranking import read_ranking
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
+from r37studies.second_motions.added import worst_exceedance
 
 from .tables import write_table
 

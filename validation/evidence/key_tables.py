@@ -15,11 +15,13 @@ from r37core.base.io import write_text
 from r37core.base.units import SUFFIXES
 from r37core.config.speed_section import UNITS
 from r37core.product.schemas import MODELS
-from r37core.results.columns import CHANCE, IN_REGION, OPERATING, RANGED, RANKING, SUMMARY, column_named, names
-from r37core.results.ranges import COLUMNS as TOLERANCES
+from r37core.product.targets import COLUMNS as DECLARED
+from r37core.results.columns import CHANCE, IN_REGION, OPERATING, column_named, names
 from r37core.results.ranking import RANKED_BY
 from r37studies.designs.table import MEASURES
 from r37studies.second_motions.tables import RANGE_COLUMNS, RANGES
+from r37studies.tolerances.ranges import COLUMNS as TOLERANCES
+from r37studies.tolerances.ranges import RANGED
 
 from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
 from .keys_again import Shown, ShownModels
@@ -209,8 +211,15 @@ _RANGES = [name for column in RANGED for name in column.range_names]
 _RANKED_RANGES = [f"{name}_{end}" for name in RANKED_BY for end in ("low", "high")]
 
 TABLES_OF_RESULTS = {
-    "summary.csv": [*names(SUMMARY), *_RANGES],
-    "ranking.csv": ["blade", "scene", *names(RANKING), *_RANKED_RANGES, IN_REGION.format("REGION"), f"{CHANCE}BLADE"],
+    "summary.csv": [*names(DECLARED["summary"]), *_RANGES],
+    "ranking.csv": [
+        "blade",
+        "scene",
+        *names(DECLARED["ranking"]),
+        *_RANKED_RANGES,
+        IN_REGION.format("REGION"),
+        f"{CHANCE}BLADE",
+    ],
     "designs.csv": ["blade", "scene", *names(MEASURES), *names(OPERATING)],
     "tolerances.csv": TOLERANCES,
     "second_motions.csv": RANGE_COLUMNS,
@@ -221,10 +230,10 @@ TABLES_OF_RESULTS = {
 def column_rows() -> Iterator[tuple[str, str, str]]:
     """Table, column and meaning of every declared column."""
     designs = (*MEASURES, *OPERATING)
-    declared = {"ranking.csv": RANKING, "designs.csv": designs, "second_motions.csv": RANGES}
+    declared = {"ranking.csv": DECLARED["ranking"], "designs.csv": designs, "second_motions.csv": RANGES}
     for file, columns in TABLES_OF_RESULTS.items():
         for name in columns:
-            column = column_named(name, (*declared.get(file, ()), *SUMMARY, *RANKING))
+            column = column_named(name, (*declared.get(file, ()), *DECLARED["summary"], *DECLARED["ranking"]))
             assert column is not None, f"{file}: {name} is not declared"
             yield file, name, column.meaning
 

@@ -17,6 +17,7 @@ from r37core.plans.stages import Stage, structure_stages
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.targets import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
+    added,
     links,
     offered,
     panels,

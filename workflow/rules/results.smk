@@ -43,11 +43,20 @@ use rule step as sweep_dataset with:
 datasets = {kind: expand(rules.sweep_dataset.output, kind=kind)[0] for kind in sweep.kinds}
 
 
+more_columns = {table: added(table, sweep) for table in ("summary", "ranking")}
+
+
+def adding(table):
+    """Parameters of a rule whose table gets columns from extensions."""
+    functions = {name: each.function for name, each in more_columns[table].items()}
+    modules = [function.rpartition(".")[0] for function in functions.values()]
+    return {**step(f"r37core.results.steps.{table}", *modules), "added": functions}
+
+
 use rule step as summary with:
     input:
         **datasets,
-        **offered("ranges", sweep),
-        **more_motions,
+        **{name: each.file for name, each in more_columns["summary"].items()},
         **further_runs,
         campbell=rules.campbell_of_all.output[0],
     output:
@@ -55,7 +64,7 @@ use rule step as summary with:
     log:
         "<logs>/summary.log",
     params:
-        **step("r37core.results.steps.summary"),
+        **adding("summary"),
         choice=plain(settings.config.interactions),
 
 
@@ -63,14 +72,14 @@ use rule step as ranking with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue")},
         **members,
-        **more_motions,
+        **{name: each.file for name, each in more_columns["ranking"].items()},
         **further_runs,
     output:
         table=shown("<results>/ranking.csv", TEXTS / "ranking.rst", TOGETHER, "ranking"),
     log:
         "<logs>/ranking.log",
     params:
-        **step("r37core.results.steps.ranking"),
+        **adding("ranking"),
         runs=sweep.runs_with("rms"),
         errors=level_errors(settings, sweep.runs_with("rms")),
         operating=operating,

@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection
+from r37core.results.columns import Column
 
 from .extent import Pair
 from .paths import Wildcards
@@ -16,8 +17,19 @@ from .sweep_plan import Sweep
 Targets = Callable[[Sweep], dict[str, Wildcards]]
 """Patterns of files -> the wildcards of each that a run asks for; none where its configuration does without."""
 
-Offer = Literal["motions", "run_ups", "verdict", "ranges", "members", "further_runs", "measured"]
-"""Name of a file that other rules take; see Extension.offers."""
+
+@dataclass(frozen=True)
+class AddedColumns:
+    """Columns that an extension adds to a table of the pipeline.
+
+    `table`: summary or ranking; `file`: that one of the extension's targets from which they are made.
+    `function`: as `folder.module.function`, of the table and the path of that file, that gives the table with the `columns`.
+    """
+
+    table: Literal["summary", "ranking"]
+    file: str
+    function: str
+    columns: tuple[Column, ...]
 
 
 @dataclass(frozen=True)
@@ -57,7 +69,7 @@ class Figure:
     caption: str
     category: str = ""
     arguments: Callable[[Sweep], Mapping[str, Any]] = lambda _: {}
-    offered: tuple[Offer, ...] = ()
+    offered: tuple[str, ...] = ()
 
     def targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """Files of the figure, as PNG and PDF."""
@@ -84,11 +96,10 @@ class Extension:
     `checks`: what no model of the section alone can check; each raises ConfigError.
     `members`: largest number of simulations of members and designs next to the sweep, by blade and scene.
     `targets`: what is made of it; part of all_blades unless `made_on_request`.
-    `offers`: files among the targets that other rules take where a run makes them. `motions`: a dataset of more motions at a
-    speed than that from rest (results/other_motions.py), for summary, ranking and the figures of the response; `verdict`: a
-    table of requirements and whether blades meet them, for maps of designs; `ranges`: a table as of results/ranges.py, for
-    the summary; `members`: a dataset with a dimension `member`, for ranking and verdict; `further_runs`: a dataset of runs
-    from rest that stand in place of the sweep's (results/datasets.py), for summary, ranking and the figures of the response.
+    `columns`: what it adds to summary.csv and ranking.csv.
+    `offers`: files among the targets, by names under which other rules take them where a run makes them. The pipeline takes
+    `motions`, more than that from rest (results/other_motions.py), for the figures of the response; `members`, a dataset with a
+    dimension `member`, for the ranking; and `further_runs`, from rest, in place of the sweep's (results/datasets.py).
     `remarks`: what a run should say of it before it starts.
     `figures`: what is drawn of them, made with the targets.
     `panel`: what the explorer shows of it.
@@ -103,7 +114,8 @@ class Extension:
     checks: tuple[Callable[[Settings], None], ...] = ()
     members: Callable[[Settings], Mapping[Pair, int]] = lambda _: {}
     targets: Targets = lambda _: {}
-    offers: Mapping[Offer, str] = field(default_factory=dict)
+    columns: tuple[AddedColumns, ...] = ()
+    offers: Mapping[str, str] = field(default_factory=dict)
     remarks: Callable[[Settings], list[str]] = lambda _: []
     figures: tuple[Figure, ...] = ()
     panel: Panel | None = None

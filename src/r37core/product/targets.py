@@ -6,9 +6,10 @@ from typing import Any
 from r37core.config.remarks import elastic_casings
 from r37core.figures.declared import FIGURES as PIPELINE
 from r37core.plans.code import CodeHashes
-from r37core.plans.extension import Figure, Offer, Panel
+from r37core.plans.extension import AddedColumns, Figure, Panel
 from r37core.plans.paths import Wildcards, filled
 from r37core.plans.sweep_plan import KINDS, Sweep
+from r37core.results.columns import INTERACTIONS, RANKING
 
 from .extensions import EXTENSIONS
 
@@ -36,11 +37,17 @@ def simulated(sweep: Sweep) -> list[str]:
     return [file for extension in EXTENSIONS for file in filled(extension.simulated(sweep))]
 
 
-def offered(what: Offer, sweep: Sweep) -> dict[str, str]:
+def offered(what: str, sweep: Sweep) -> dict[str, str]:
     """File that an extension offers to other rules under that name, as the input of that name; none without one."""
     offering = ((extension, extension.offers[what]) for extension in EXTENSIONS if what in extension.offers)
     files = [file for extension, file in offering if extension.targets(sweep)[file]]
     return {what: files[0]} if files else {}
+
+
+def added(table: str, sweep: Sweep) -> dict[str, AddedColumns]:
+    """Extension -> columns that it adds to summary or ranking in this run, those of the last extension first."""
+    each_added = ((extension, added) for extension in reversed(EXTENSIONS) for added in extension.columns)
+    return {each.name: added for each, added in each_added if added.table == table and each.targets(sweep)[added.file]}
 
 
 def links(sweep: Sweep) -> list[dict[str, str]]:
@@ -67,6 +74,14 @@ def panels(sweep: Sweep) -> dict[str, Panel]:
     declared = ((extension, extension.panel) for extension in EXTENSIONS if extension.panel)
     return {each.name: panel for each, panel in declared if each.targets(sweep)[panel.table] and panel.shown(sweep)}
 
+
+_ADDED = [added for extension in EXTENSIONS for added in extension.columns]
+
+COLUMNS = {
+    table: (*own, *(column for added in _ADDED if added.table == table for column in added.columns))
+    for table, own in (("summary", INTERACTIONS), ("ranking", RANKING))
+}
+"""Columns that summary.csv and ranking.csv may have: those of the pipeline, and of the extensions."""
 
 TOGETHER = "All blades"
 EVERY_SCENE = "every scene"

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .limits import beyond_limits, reasons_beyond_limits
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def remarks_on_diverged(linear: Sequence[str]) -> list[str]:
@@ -32,18 +29,6 @@ def remarks_on_limits(runs: Mapping[Any, Any], prefix: str = "") -> list[str]:
 def counted(number: int, name: str) -> str:
     """A number of things with their name: 1 run-up, 2 run-ups."""
     return f"{number} {name}{'s' * (number != 1)}"
-
-
-def largest_stress_text(table: pd.DataFrame, speed: str) -> str:
-    """The largest stress of a table with the columns blade, scene and largest_stress_pa, and where; `speed`: a column's name.
-
-    Empty where no row has a stress.
-    """
-    if "largest_stress_pa" not in table or table["largest_stress_pa"].isna().all():
-        return ""
-    row = table.loc[table["largest_stress_pa"].idxmax()]
-    where = f"{row['blade']} in {row['scene']} at {row[speed]:.6g} rad/s"
-    return f"; the largest stress {1e-9 * row['largest_stress_pa']:.2f} GPa, {where}"
 
 
 def interaction_title(mode: object, engine_order: Any) -> str:

@@ -1,6 +1,6 @@
 """Columns of summary.csv and ranking.csv, each declared once: the tables and columns.csv of the pages follow.
 
-Light: the configuration imports it.
+Extensions declare those that they add (plans.extension.AddedColumns). Light: the configuration imports it.
 """
 
 from collections.abc import Iterable
@@ -36,8 +36,7 @@ IN_REGION = "length_most_revolutions_{}_rad_s"
 class Column:
     """Column of a table: its `name`, which ends with its SI unit, and its `meaning`; `words`: title that is not the name.
 
-    `percent`: whether a share is shown in percent; `scatter`: whether its standard deviation by chance follows it;
-    `minimised`: whether searches can minimise it.
+    `percent`: whether a share is shown in percent; `scatter`: whether its standard deviation by chance follows it.
     """
 
     name: str
@@ -45,7 +44,6 @@ class Column:
     words: str = ""
     percent: bool = False
     scatter: bool = False
-    minimised: bool = False
 
     @property
     def title(self) -> str:
@@ -98,8 +96,8 @@ _MOST, _SOME = "above yield in most revolutions", "above yield in some revolutio
 _LOST = f"share of the amplitude lost within {DROP_WITHIN:g} rad/s above the peak"
 
 LENGTHS = (
-    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, minimised=True),
-    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}", _SOME, minimised=True),
+    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST),
+    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}", _SOME),
     Column("length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", "ever above yield"),
 )
 """How long a range of speeds is above yield (results.exceedance)."""
@@ -112,12 +110,12 @@ DANGER = (
         "revolutions above yield",
         percent=True,
     ),
-    Column("largest_median_stress_pa", f"largest median {_STRESS}", "median stress", minimised=True),
+    Column("largest_median_stress_pa", f"largest median {_STRESS}", "median stress"),
     Column("largest_high_stress_pa", f"largest 90% quantile {_STRESS}", "high stress"),
     Column("largest_stress_pa", f"largest {_STRESS}", "largest stress"),
     Column("largest_stress_over_yield", "largest stress over the yield stress", "times yield"),
     Column("largest_stress_speed_rad_s", "speed of the largest stress", "at speed"),
-    Column("largest_goodman_share", "largest share of the Goodman line", "Goodman share", minimised=True),
+    Column("largest_goodman_share", "largest share of the Goodman line", "Goodman share"),
 )
 """How dangerous a range of speeds is, the same for interactions, blades, designs and members (results.danger)."""
 
@@ -174,27 +172,6 @@ What is named peak is at the peak speed, what is named max the largest within th
 standard deviation by chance of what stands before it (results.exceedance). NaN is what a scene does not compute.
 """
 
-_WITH_RANGE = ("peak_speed_rad_s", "length_most_revolutions_rad_s", "length_ever_rad_s", "largest_stress_pa")
-RANGED = tuple(column for name in _WITH_RANGE for column in INTERACTIONS if column.name == name)
-"""Columns to which tolerances add a range over the members."""
-
-MEMBERS_SHOWING = (
-    Column("share_of_members", "share of the members that show the interaction", "members", percent=True),
-    Column("robust", "whether at least half of the members show it"),
-)
-"""Columns that tolerances add to summary.csv, before the ranges of RANGED."""
-
-SECOND_MOTIONS = (
-    Column("second_motion", "motion, carried `up` or `down`, that is most above that from rest"),
-    Column("second_motion_speed_rad_s", "speed of the second motion", "speed of the second motion"),
-    Column("second_motion_rms_normal_m", "normal rms of the second motion", "normal rms of the second motion"),
-    Column("second_motion_rest_rms_normal_m", "normal rms from rest at that speed", "normal rms from rest there"),
-)
-"""Columns that second motions add to summary.csv."""
-
-SUMMARY = (*INTERACTIONS, *SECOND_MOTIONS, *MEMBERS_SHOWING)
-"""All columns that summary.csv may have."""
-
 ROBUSTNESS = (
     *(replace(column, scatter=True) for column in LENGTHS[:2]),
     *DANGER[2:],
@@ -214,7 +191,6 @@ ROBUSTNESS = (
         f"integral over speed of the share of {_REVOLUTIONS} that exceed yield",
         "integral above yield",
         scatter=True,
-        minimised=True,
     ),
     Column(
         "length_goodman_rad_s",
@@ -225,7 +201,6 @@ ROBUSTNESS = (
         "goodman_integral_rad_s",
         "integral over speed of the share of revolutions above the Goodman line",
         "integral above the Goodman line",
-        minimised=True,
     ),
     Column("first_most_revolutions_rad_s", f"lowest speed {_MOST}", f"first speed {_MOST}"),
     Column("first_some_revolutions_rad_s", f"lowest speed {_SOME}", f"first speed {_SOME}"),
@@ -233,7 +208,6 @@ ROBUSTNESS = (
         "widest_range_rad_s",
         "width of the widest range above yield in most revolutions",
         f"widest range {_MOST}",
-        minimised=True,
     ),
     Column("widest_range_from_rad_s", "lowest speed of the widest range above yield", "widest range from"),
     Column("ranges_most_revolutions", "number of ranges above yield in most revolutions", f"ranges {_MOST}"),
@@ -241,12 +215,11 @@ ROBUSTNESS = (
         "largest_rms_m",
         "largest normal and tangential rms of the leading edge together",
         "largest rms, both directions",
-        minimised=True,
     ),
     Column("largest_rms_speed_rad_s", "speed of the largest rms", "speed of the largest rms"),
     Column("drop", _LOST, "amplitude lost above the peak", percent=True),
     Column("largest_gap_rad_s", "largest distance of neighbouring speeds: it can hide a narrower interaction"),
-    Column("diverged_runs", "diverged runs", "diverged", minimised=True),
+    Column("diverged_runs", "diverged runs", "diverged"),
 )
 """Measures of a response, the same for blades, designs and members."""
 
@@ -255,7 +228,6 @@ OPERATING = (
         "length_most_revolutions_operating_rad_s",
         "this length inside the operating range",
         f"{_MOST}, in operation",
-        minimised=True,
     ),
     Column(
         "length_most_revolutions_operating_within_rad_s", "by how much that length may be off", "in operation, known within"
@@ -265,33 +237,14 @@ OPERATING = (
         "integral over the operating range of the share of later revolutions above yield, weighted by its dwells",
         "integral above yield, in operation",
         scatter=True,
-        minimised=True,
     ),
     Column(
         "goodman_integral_operating_rad_s",
         "integral over the operating range of the share of revolutions above the Goodman line, weighted by the dwells",
         "integral above Goodman, in operation",
-        minimised=True,
     ),
 )
 """Measures of a response inside the operating range."""
-
-WORST_MOTION = (
-    Column(
-        "length_most_revolutions_rest_rad_s",
-        "length above yield in most revolutions from rest, at the speeds of sweeps",
-        f"{_MOST}, from rest",
-    ),
-    Column(
-        "length_most_revolutions_worst_rad_s",
-        "length above yield in most revolutions by the worst motion up, down and from rest, or from rest alone if longer",
-        f"{_MOST}, worst motion",
-    ),
-    Column("largest_rms_worst_m", "largest rms of the motions up, down and from rest", "largest rms, worst motion"),
-    Column("carried_revolutions", "revolutions of the motions up and down at each speed, by default those from rest"),
-    Column("rank_worst", "place by the worst motion", "rank by the worst motion"),
-)
-"""Columns that second motions add to ranking.csv."""
 
 OVER_SCENES = (
     Column("rank_over_scenes", "rank by the longest length in any scene; shared by what cannot be told apart"),
@@ -310,16 +263,11 @@ RANKING = (
     Column("contact", "contact nodes, kinematics; ranks and chances are among equals"),
     *OVER_SCENES,
     *ROBUSTNESS,
-    *WORST_MOTION,
     Column("members", "members of the sample"),
     *OPERATING,
     Column("rank_operating", "place by the integral over the operating range", "rank in operation"),
 )
-"""All columns that ranking.csv may have next to blade, scene, ranges over members and chances."""
-
-MINIMISED = tuple(column.name for column in (*ROBUSTNESS, *OPERATING) if column.minimised)
-"""Measures that searches can minimise."""
-
+"""Columns of ranking.csv next to blade, scene, ranges over members and chances."""
 
 def column_named(name: str, columns: Iterable[Column]) -> Column | None:
     """The column of this name: one of `columns`, the scatter or range over members of one, a chance; None for any other."""

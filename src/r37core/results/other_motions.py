@@ -1,23 +1,11 @@
-"""Effect of motions other than that from rest on ranking and summary: the worst of all motions at each speed.
+"""Motions other than that from rest: an extension's dataset over (blade, scene, motion, speed), offered as `motions`.
 
-`motions` is the dataset of an extension, over (blade, scene, motion, speed); the motion from rest is among them, called REST.
 `motion_mean` (m) is the mean rms of a revolution, normal and tangential together; `differ` is 1 where the motions differ. What
 is not run is NaN.
 """
 
 import numpy as np
-import pandas as pd
 import xarray as xr
-
-from r37core.time_integration.status import RunStatus
-
-from .columns import MOST_REVOLUTIONS, SECOND_MOTIONS, WORST_MOTION, names
-from .exceedance import Exceedance, is_lined
-
-REST = "rest"
-
-WITHIN = 0.06
-"""Distance of a speed from the peak of an interaction, as a share of it, within which another motion belongs to that."""
 
 
 def swept(motions: xr.Dataset) -> xr.Dataset:
@@ -28,62 +16,3 @@ def swept(motions: xr.Dataset) -> xr.Dataset:
 def half_step(speeds: np.ndarray) -> float:
     """Half of the smallest step between speeds: by so much a range of speeds is drawn beyond its ends; 0 of a single one."""
     return 0.5 * float(np.diff(speeds).min()) if len(speeds) > 1 else 0.0
-
-
-def ranking_with_motions(ranking: pd.DataFrame, motions: xr.Dataset) -> pd.DataFrame:
-    """The ranking with the length of speeds above yield by the motion from rest and by the worst one, on the same speeds.
-
-    The worst one has the length of the runs from rest where that is longer: they may be at more speeds.
-    """
-    rows = [_worst(swept(motions.sel(blade=row.blade, scene=row.scene))) for row in ranking.itertuples()]
-    *lengths, rank = names(WORST_MOTION)
-    table = pd.concat([ranking, pd.DataFrame(rows, index=ranking.index, columns=lengths)], axis=1)
-    worst, rest = table["length_most_revolutions_worst_rad_s"], table.get("length_most_revolutions_rad_s", np.nan)
-    table["length_most_revolutions_worst_rad_s"] = worst.where(worst.isna(), np.fmax(worst, rest))
-    alike = [name for name in ("scene", "contact") if name in table]
-    table[rank] = table.groupby(alike)["length_most_revolutions_worst_rad_s"].rank(method="min").astype("Int64")
-    return table
-
-
-def _worst(pair: xr.Dataset) -> dict[str, float]:
-    if not pair.sizes["speed"]:
-        return {}
-    row = {"largest_rms_worst_m": float(pair["motion_mean"].max())}
-    row["carried_revolutions"] = float(pair["revolutions"].where(pair["motion"] != REST).max())
-    if "share_of_revolutions_above_yield" in pair:
-        row["length_most_revolutions_rest_rad_s"] = worst_exceedance(pair.sel(motion=[REST])).length(MOST_REVOLUTIONS)
-        row["length_most_revolutions_worst_rad_s"] = worst_exceedance(pair).length(MOST_REVOLUTIONS)
-    return row
-
-
-def worst_exceedance(pair: xr.Dataset) -> Exceedance:
-    """Revolutions above yield of the worst motion at each speed, of `swept` motions with stress; all of one that diverged."""
-    diverged = pair["status"] == RunStatus.DIVERGED
-    shares = pair["share_of_revolutions_above_yield"].where(~diverged, 1.0).max("motion")
-    return Exceedance(pair["speed"].values, shares.values, not is_lined(pair))
-
-
-def summary_with_motions(summary: pd.DataFrame, motions: xr.Dataset) -> pd.DataFrame:
-    """The summary with the motion of each interaction that is most above that from rest, where they differ.
-
-    Speeds belong to the interaction whose peak is nearest, up to WITHIN of it.
-    """
-    table, (name, *numbers) = summary.copy(), names(SECOND_MOTIONS)
-    table[name] = pd.Series("", table.index, dtype=object)
-    table[numbers] = np.nan
-    for (blade, scene), rows in table.groupby(["blade", "scene"], sort=False):
-        pair, peaks = swept(motions.sel(blade=blade, scene=scene)), rows["peak_speed_rad_s"]
-        mean = pair["motion_mean"].transpose("motion", "speed").values
-        rest = mean[pair["motion"].values == REST]
-        # by ratio, as ranges have it; one that diverged is above all others, and nothing is above it
-        above = np.nan_to_num(mean, nan=np.inf) / np.maximum(np.nan_to_num(rest, nan=np.inf), np.finfo(float).tiny)
-        above = np.where(np.isnan(rest), 0.0, above)
-        for place in np.argsort(above.max(axis=0, initial=0.0), kind="stable"):
-            speed, motion = float(pair["speed"][place]), int(np.argmax(above[:, place]))
-            nearest = (peaks - speed).abs().fillna(np.inf).idxmin()
-            if pair["differ"][place] and above[motion, place] > 1.0 and abs(peaks[nearest] - speed) <= WITHIN * peaks[nearest]:
-                rms = pair["rms_normal"].isel(speed=place)
-                values = (str(pair["motion"].values[motion]), speed, float(rms[motion]), float(rms.sel(motion=REST)))
-                # the last one is the largest
-                table.loc[nearest, [name, *numbers]] = values
-    return table

@@ -1,11 +1,14 @@
 """Steps of the workflow (docs/architecture.md): Campbell diagrams, responses, the datasets and tables of all blades."""
 
+from collections.abc import Callable
+from functools import reduce
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
-from r37core.base.io import as_list, write_json
+from r37core.base.io import as_list, function_named, write_json
 from r37core.base.origin import origin
 from r37core.base.plain import from_plain
 from r37core.contact.elastic_casing import ElasticCasing
@@ -18,8 +21,6 @@ from .columns import IN_REGION
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
 from .operating_range import OperatingRange
-from .other_motions import ranking_with_motions, summary_with_motions
-from .ranges import ranged_summary, read_ranges
 from .ranking import length_most_revolutions, measures_of, measures_of_members, ranking_table
 from .regions import other_regions
 from .response import write_response
@@ -77,30 +78,24 @@ def coincidences(input: Any, output: Any, params: Any) -> None:
 
 
 def summary(input: Any, output: Any, params: Any) -> None:
-    """List the interactions. Inputs: datasets by kind and, if there, ranges of members, more motions. Output: table (csv).
+    """List the interactions. Inputs: datasets by kind, and files of what extensions add. Output: table (csv).
 
-    Params: choice.
+    Params: choice; added: name of an input -> function that adds its columns (plans.extension.AddedColumns).
     """
-    files = dict(input.items())
-    ranges, motions = (files.pop(name, None) for name in ("ranges", "motions"))
+    files, added = _inputs(input, params)
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
-    table = summarise(datasets, from_plain(InteractionChoice, params.choice))
-    if ranges:
-        table = ranged_summary(table, read_ranges(ranges))
-    if motions:
-        table = summary_with_motions(table, read_dataset(motions))
-    write_table(table, output.table)
+    write_table(added(summarise(datasets, from_plain(InteractionChoice, params.choice))), output.table)
 
 
 def ranking(input: Any, output: Any, params: Any) -> None:
-    """Rank the blades. Inputs: datasets by kind and, if there, members and more motions. Output: table (csv).
+    """Rank the blades. Inputs: datasets by kind, members if there, files of what extensions add. Output: table (csv).
 
     Params: runs, errors (relative one of the stress, of each run), operating (the range, or None), contacts (blade -> what its
-    contact acts on).
+    contact acts on), added (as of summary).
     """
-    datasets = {kind: read_dataset(file) for kind, file in input.items()}
+    files, added = _inputs(input, params)
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
-    motions = datasets.pop("motions", None)
     operating = params.operating and from_plain(OperatingRange, params.operating)
     measures = {
         (blade, scene): measures_of(datasets, blade, scene, operating, error)
@@ -110,5 +105,11 @@ def ranking(input: Any, output: Any, params: Any) -> None:
         for blade, scene in params.runs:
             response = response_of(datasets, blade, scene, region)
             measures[blade, scene][IN_REGION.format(region)] = length_most_revolutions(response)
-    table = ranking_table(measures, members, params.contacts)
-    write_table(table if motions is None else ranking_with_motions(table, motions), output.table, digits=6)
+    write_table(added(ranking_table(measures, members, params.contacts)), output.table, digits=6)
+
+
+def _inputs(input: Any, params: Any) -> tuple[dict[str, str], Callable[[pd.DataFrame], pd.DataFrame]]:
+    """Files of the datasets by name, and what adds the columns of extensions to a table."""
+    files = dict(input.items())
+    additions = [(function_named(function), files.pop(name)) for name, function in params.added.items()]
+    return files, lambda table: reduce(lambda made, addition: addition[0](made, addition[1]), additions, table)

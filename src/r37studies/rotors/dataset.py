@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
-from r37core.results.closing import counted, largest_stress_text
+from r37core.results.closing import counted
 from r37core.results.columns import MOST_REVOLUTIONS
 from r37core.results.joining import Along
 from r37core.results.response import in_statistic
@@ -18,6 +18,7 @@ from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.rotor_numbers import span_maxima
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
+from r37studies.closing import largest_stress_text
 
 _BLADES = ("blade_number",)
 _MOTION = "the leading edge's displacement, normal and tangential together,"

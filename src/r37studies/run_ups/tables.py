@@ -7,10 +7,11 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.results.closing import counted, largest_stress_text
+from r37core.results.closing import counted
 from r37core.results.measures import first_yield, leading_edge, motion
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
+from r37studies.closing import largest_stress_text
 
 from .dataset import runs_of
 

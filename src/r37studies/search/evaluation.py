@@ -19,7 +19,6 @@ from r37core.config.settings import judged_region
 from r37core.fem.equilibrium import NoEquilibriumError
 from r37core.machine_code.kept import kept_file
 from r37core.plans.sweep_plan import Sweep
-from r37core.results.columns import MINIMISED
 from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
 from r37core.rom.contact_model import read_contact_model
@@ -32,7 +31,7 @@ from r37core.time_integration.clearance import NoRoomError
 
 from .designs import NOMINAL, SearchDesigns, choice_of, designs_of
 from .problem import START
-from .quantity import DesignStructure, contact_value, static_stress, structure_value
+from .quantity import MINIMISED, DesignStructure, contact_value, static_stress, structure_value
 
 _STRUCTURE = ("geometry", CAMPBELL, "contact_model", "stress_operator")
 

@@ -10,13 +10,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from r37core.base.units import unit_of
-from r37core.results.columns import MINIMISED
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator
 
 if TYPE_CHECKING:
     # the workflow imports it before it knows whether there is a search
     import xarray as xr
+
+MINIMISED = (
+    "length_most_revolutions_rad_s", "length_some_revolutions_rad_s", "largest_median_stress_pa", "largest_goodman_share",
+    "exceedance_integral_rad_s", "goodman_integral_rad_s", "widest_range_rad_s", "largest_rms_m", "diverged_runs",
+    "length_most_revolutions_operating_rad_s", "exceedance_integral_operating_rad_s", "goodman_integral_operating_rad_s",
+)  # fmt: skip
+"""Columns of ranking.csv that searches can minimise."""
 
 STRUCTURE_MEASURES = {
     "mass_kg": "mass of the blade",

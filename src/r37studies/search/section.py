@@ -6,9 +6,8 @@ from pydantic import AfterValidator, Field
 
 from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
 from r37core.config.spread import Bounds, MemberCount, Number, Spreads
-from r37core.results.columns import MINIMISED
 
-from .quantity import MEASURES, NEEDS, STRUCTURE_MEASURES, Quantity
+from .quantity import MEASURES, MINIMISED, NEEDS, STRUCTURE_MEASURES, Quantity
 
 COLUMNS = ("design", "round", "feasible", "not_dominated", "order", "refused")
 """Columns of search.csv next to those of variables, objectives and constraints."""

@@ -10,11 +10,12 @@ from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.settings import length_of_run
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure
+from r37core.plans.extension import AddedColumns, Extension, Figure
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.speed_run import OF_RUNS
 
 from .choice import MOTIONS, REST
+from .columns import SECOND_MOTION, WORST_MOTION
 from .section import SECTION, SecondMotionSection, pairs_of
 
 RESPONSE = "<results>/{blade}/{scene}/second_motions_{motion}.nc"
@@ -121,6 +122,10 @@ EXTENSION = Extension(
     section=SECTION,
     checks=(can_be_swept,),
     targets=targets,
+    columns=(
+        AddedColumns("summary", DATASET, "r37studies.second_motions.added.summary_with_motions", SECOND_MOTION),
+        AddedColumns("ranking", DATASET, "r37studies.second_motions.added.ranking_with_motions", WORST_MOTION),
+    ),
     offers={"motions": DATASET},
     figures=(
         Figure(

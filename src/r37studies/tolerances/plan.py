@@ -9,7 +9,7 @@ from r37core.base.varied_number import VariedNumber
 from r37core.blade.definition import Shape
 from r37core.config import BladeSettings, Settings, varied_settings
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure
+from r37core.plans.extension import AddedColumns, Extension, Figure
 from r37core.plans.extent import Pair, extent_of
 from r37core.plans.provenance import Attributes
 from r37core.plans.sweep_plan import Sweep
@@ -18,6 +18,7 @@ from r37core.sweep.recipe import structure_attributes
 
 from .members import SECTION, Member, Members, members_can_be_drawn, members_of
 from .number_ranks import remarks_on_rankings
+from .ranges import MEMBERS_SHOWING
 
 FOLDER = "tolerances"
 """Folder of the members' files: the extension's name."""
@@ -143,7 +144,8 @@ EXTENSION = Extension(
     checks=(members_can_be_drawn,),
     members=lambda settings: settings.made(Tolerances).simulations,
     targets=targets,
-    offers={"ranges": TABLE, "members": DATASET},
+    columns=(AddedColumns("summary", TABLE, "r37studies.tolerances.ranges.ranged_summary", MEMBERS_SHOWING),),
+    offers={"members": DATASET},
     remarks=remarks,
     figures=(
         Figure(

@@ -9,13 +9,13 @@ import pandas as pd
 
 from r37core.base.dataset_file import open_dataset
 from r37core.results.closing import counted
-from r37core.results.columns import ENDS, RANGED, names
+from r37core.results.columns import ENDS, names
 from r37core.results.interactions import Interaction, InteractionChoice
-from r37core.results.ranges import COLUMNS
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
 
 from .plan import DATASET, TABLE
+from .ranges import COLUMNS, RANGED
 
 ROBUST = 0.5
 """Share of the members that show an interaction, below which it is not robust."""

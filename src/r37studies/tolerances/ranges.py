@@ -5,9 +5,18 @@ from pathlib import Path
 import pandas as pd
 
 from r37core.base.io import readable
+from r37core.results.columns import INTERACTIONS, Column, names
+from r37core.results.table_file import read_table
 
-from .columns import MEMBERS_SHOWING, RANGED, names
-from .table_file import read_table
+_WITH_RANGE = ("peak_speed_rad_s", "length_most_revolutions_rad_s", "length_ever_rad_s", "largest_stress_pa")
+RANGED = tuple(column for name in _WITH_RANGE for column in INTERACTIONS if column.name == name)
+"""Columns of summary.csv to which a range over the members is added."""
+
+MEMBERS_SHOWING = (
+    Column("share_of_members", "share of the members that show the interaction", "members", percent=True),
+    Column("robust", "whether at least half of the members show it"),
+)
+"""Columns that are added to summary.csv, before the ranges of RANGED."""
 
 KEY = ["blade", "scene", "mode", "engine_order"]
 _WITH_RANGES = [name for column in RANGED for name in (column.name, *column.range_names)]
@@ -26,8 +35,9 @@ def read_ranges(file: Path | str) -> pd.DataFrame:
         return table.fillna({"mode": ""}).astype(kinds)
 
 
-def ranged_summary(summary: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
-    """summary.csv with the share of members and the ranges of each interaction; empty for those without members."""
+def ranged_summary(summary: pd.DataFrame, file: Path | str) -> pd.DataFrame:
+    """summary.csv with the share of members and the ranges in the file of each interaction; empty for those without members."""
+    table = read_ranges(file)
     ranges = [name for column in RANGED for name in column.range_names]
     beside = table[table["peak_speed_rad_s"].notna()][[*KEY, "peak_speed_rad_s", *names(MEMBERS_SHOWING), *ranges]]
     # an empty table has columns of no type
