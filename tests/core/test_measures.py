@@ -15,7 +15,6 @@ from r37core.figures import style
 from r37core.results import measures
 from r37core.results.columns import OPERATING, ROBUSTNESS, names
 from r37core.results.danger import largest_of, ratio_to_yield
-from r37core.results.exceedance import ranges_above
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.results.ranking import operating_measures, ranking_table
 from r37core.time_integration.status import RunStatus
@@ -55,28 +54,7 @@ def test_the_strongest_order_is_no_offset_and_no_casing():
     orders = [0.0, 0.48, 0.5, 2.0, 4.02, 8.0]
     amplitude = xr.DataArray([9.0, 8.0, 1.0, 5.0, 3.0, np.nan], {"engine_order": orders})
     assert measures.strongest_order(amplitude) == 2.0
-    assert measures.strongest_order(amplitude, above=2.5) == 4.02
     assert measures.strongest_order(amplitude[:3]) == 0.5
-
-
-@pytest.mark.parametrize(
-    ("ratio", "ends"),
-    [
-        ([0.5, 1.5, 1.5, 0.5], [(105.0, 125.0)]),
-        ([2.0, 2.0, 2.0, 2.0], [(100.0, 130.0)]),
-        ([1.0, 2.0, 1.0, 0.5], [(100.0, 120.0)]),
-        ([0.5, 1.0, 0.9, 0.1], []),
-        ([0.5, 1.5, 0.5, 1.5, 0.5], [(105.0, 115.0), (125.0, 135.0)]),
-        # a run that diverged is above, and nothing is known of the way there
-        ([0.5, np.inf, np.inf, 0.5], [(110.0, 120.0)]),
-        ([0.5, np.inf, 0.5], [(110.0, 110.0)]),
-        ([], []),
-    ],
-)
-def test_ranges_above_yield_are_those_of_straight_lines(ratio, ends):
-    found = ranges_above(100.0 + 10.0 * np.arange(len(ratio)), np.array(ratio), 1.0)
-    np.testing.assert_allclose([(part.begin, part.end) for part in found], ends)
-    assert [part.truncated for part in found] == [ratio[0] > 1.0] * len(ends) if ratio else not found
 
 
 def test_a_response_is_above_yield_where_it_diverged_and_nowhere_unrun():

@@ -32,8 +32,8 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
         grid = read_grid(mesh_file)
         # colours half way to white, because black letters stand on them
         light = [0.5 + 0.5 * part for part in to_rgb(styles[name]["color"])]
-        shading: dict[str, Any] = {"ambient": 0.35, "diffuse": 0.65}
-        plotter.add_mesh(surface := surface_of(grid), color=light, smooth_shading=True, split_sharp_edges=True, **shading)
+        surface = surface_of(grid)
+        plotter.add_mesh(surface, color=light, ambient=0.35, diffuse=0.65, smooth_shading=True, split_sharp_edges=True)
         draw_edges(plotter, surface)
         _mark_sense(plotter, grid)
         # below, clear of the rotation

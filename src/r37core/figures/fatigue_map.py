@@ -83,7 +83,15 @@ def _rendered(
     plotter.add_mesh(surface, color="lightgrey", smooth_shading=True, split_sharp_edges=True, **shading)
     worst = points[[share.argmax()]]
     plotter.add_points(worst, color="red", point_size=2 * size, render_points_as_spheres=True)
-    colours: dict[str, Any] = {"scalars": share, "clim": (0.0, float(share.max())), "cmap": _COLOUR_MAP}
-    plotter.add_points(points, point_size=size, render_points_as_spheres=True, show_scalar_bar=False, **colours, **shading)
+    plotter.add_points(
+        points,
+        point_size=size,
+        render_points_as_spheres=True,
+        show_scalar_bar=False,
+        scalars=share,
+        clim=(0.0, float(share.max())),
+        cmap=_COLOUR_MAP,
+        **shading,
+    )
     look(plotter, seen_from=seen_from, zoom=1.15 if close_up is None else 1.2, close_up=close_up)
     return without_margins(rendered(plotter))

@@ -102,9 +102,8 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
             figure.legend(handles, labels, loc="outside lower center", ncols=5, **close)
         if not sized_by_motion.all():
             known = {above: mark for above, mark in _MARKS.items() if above or "" in set(rows["above"])}
-            look: dict[str, Any] = {"linestyle": "", "markeredgecolor": "0.2"}
             keys = [
-                Line2D([], [], marker=mark, markerfacecolor=to_rgba("0.2", share), **look)
+                Line2D([], [], marker=mark, markerfacecolor=to_rgba("0.2", share), linestyle="", markeredgecolor="0.2")
                 for mark, _, share, _ in known.values()
             ]
             figure.legend(keys, [label for *_, label in known.values()], loc="outside upper center", ncols=4, **close)
@@ -137,8 +136,16 @@ def _draw_modes(axes: Axes, campbell: xr.Dataset, names: Iterable[str]) -> None:
         place = (left, float(np.interp(left, campbell["speed"], high)))
         # the name of a mode at the upper edge would stand above the panel
         if place[1] < 0.95 * highest:
-            above: dict[str, Any] = {"textcoords": "offset points", "xytext": (3, 2), "va": "bottom"}
-            axes.annotate(mode, place, fontweight="bold", color="0.2", path_effects=_HALO, **above)
+            axes.annotate(
+                mode,
+                place,
+                xytext=(3, 2),
+                textcoords="offset points",
+                va="bottom",
+                fontweight="bold",
+                color="0.2",
+                path_effects=_HALO,
+            )
 
 
 def _most_dangerous_first(rows: pd.DataFrame) -> pd.DataFrame:
@@ -157,28 +164,34 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
     for row in rows.to_dict("records"):
         ends = np.array([row["some_revolutions_from_rad_s"], row["some_revolutions_to_rad_s"]], float)
         along = ends / row["peak_speed_rad_s"] if row["frequency"] > 0.0 and not row["higher"] else 1.0
-        look: dict[str, Any] = {"color": colours[row["blade"]], "linewidth": 2.5, "alpha": 0.45, "zorder": 2.4}
-        axes.plot(ends, row["frequency"] * np.broadcast_to(along, 2), solid_capstyle="butt", **look)
+        heights, colour = row["frequency"] * np.broadcast_to(along, 2), colours[row["blade"]]
+        axes.plot(ends, heights, color=colour, linewidth=2.5, alpha=0.45, zorder=2.4, solid_capstyle="butt")
     diverged = rows["status"] == RunStatus.DIVERGED.text
     for above, (marker, _, share, _) in _MARKS.items():
         part = rows[(rows["above"] == above) & (~diverged | (rows["size"] > 0.0))].sort_values("area", ascending=False)
         faces, edges = ([to_rgba(colours[blade], alpha) for blade in part["blade"]] for alpha in (share, 1.0))
-        look = {"facecolors": faces, "edgecolors": edges, "linewidths": 0.9, "zorder": 2.5, "clip_on": False}
-        axes.scatter(*_places(part), part["area"], marker=marker, **look)
+        x, y = _places(part)
+        axes.scatter(
+            x, y, part["area"], marker=marker, facecolors=faces, edgecolors=edges, linewidths=0.9, zorder=2.5, clip_on=False
+        )
     if diverged.any():
         axes.plot(*_places(rows[diverged]), "x", color="red", zorder=2.6, label="diverged", clip_on=False)
     circles = rows[rows["size"] > 0.0]
     if sizes := _sizes_of_key(circles):
         unit, scale = circles["unit"].iloc[0], circles["scale"].iloc[0]
-        key: dict[str, Any] = {"marker": "o", "linestyle": "", "color": "0.8", "markeredgecolor": "0.3"}
-        handles = [Line2D([], [], markersize=_LARGEST * np.sqrt(each / scale), **key) for each in sizes]
+        widths = [_LARGEST * np.sqrt(each / scale) for each in sizes]
+        handles = [
+            Line2D([], [], marker="o", markersize=wide, linestyle="", color="0.8", markeredgecolor="0.3") for wide in widths
+        ]
         # on no mark: above the strip, or else at the top
         places = np.vstack([(0.0, 0.0), np.column_stack(_places(rows))])
         (_, zero), *shares = axes.transAxes.inverted().transform(axes.transData.transform(places))
         crowded = any(x > 0.5 and 0.0 < y - zero < 0.25 for x, y in shares)
         place: dict[str, Any] = {"loc": "upper left"} if crowded else {"loc": "lower right", "bbox_to_anchor": (1.0, zero)}
-        box: dict[str, Any] = {"frameon": True, "framealpha": 0.9, "edgecolor": "none", "columnspacing": 1.0, "borderpad": 0.6}
-        axes.legend(handles, [f"{each:g} {unit}" for each in sizes], ncols=2, **place, **box)
+        labels = [f"{each:g} {unit}" for each in sizes]
+        axes.legend(
+            handles, labels, ncols=2, frameon=True, framealpha=0.9, edgecolor="none", columnspacing=1.0, borderpad=0.6, **place
+        )
 
 
 def _sizes_of_key(circles: pd.DataFrame) -> list[float]:

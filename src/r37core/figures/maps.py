@@ -84,8 +84,16 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
                 _write_on_dark(axes, f"1B/{order}", (speed - low) / (high - low), 352.0, ha="left", va="top")
         # triangles at the upper edge, where some of the lining is worn through
         worn = maps["speed"].values[maps["worn_through_share"].values > 0.0]
-        look: dict[str, Any] = {"color": "white", "markeredgecolor": "black", "markersize": 5, "markeredgewidth": 0.5}
-        axes.plot(worn, np.full(len(worn), 0.97), "v", transform=axes.get_xaxis_transform(), **look)
+        axes.plot(
+            worn,
+            np.full(len(worn), 0.97),
+            "v",
+            transform=axes.get_xaxis_transform(),
+            color="white",
+            markeredgecolor="black",
+            markersize=5,
+            markeredgewidth=0.5,
+        )
     else:
         style.say(axes, style.ALL_DIVERGED)
     axes.set(xlabel=style.SPEED_LABEL, ylabel="angle round the casing (degrees)", title=f"wear: {title}")

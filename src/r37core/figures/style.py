@@ -130,8 +130,8 @@ def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False, li
         label = "yield stress" if named and number == 0 else "_"
         axes.axhline(limit, color="0.3", linewidth=0.9, linestyle="--", label=label)
         if len(blades_of) > 1:
-            along: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "bottom"}
-            axes.text(1.0, limit, ", ".join(blades), fontsize=6, color="0.3", **along)
+            where = axes.get_yaxis_transform()
+            axes.text(1.0, limit, ", ".join(blades), fontsize=6, color="0.3", ha="right", va="bottom", transform=where)
     if blades_of:
         lowest, label = min(blades_of), (OUTSIDE if linear else ABOVE_YIELD) if named else "_"
         tint: dict[str, Any] = {"facecolor": "#B00020", "alpha": 0.08, "linewidth": 0.0, "zorder": 0.0, "label": label}

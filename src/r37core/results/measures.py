@@ -48,12 +48,12 @@ def drop_after(response: xr.Dataset, index: int | None = None) -> float:
     return float(1.0 - after.min() / level[peak]) if after.size and level[peak] > 0.0 else np.nan
 
 
-def strongest_order(amplitude: xr.DataArray, above: float = 0.5) -> float:
-    """Engine order of the largest amplitude, of all not below `above`; `amplitude` over `engine_order` alone.
+def strongest_order(amplitude: xr.DataArray) -> float:
+    """Engine order of the largest amplitude, of all from 0.5 on; `amplitude` over `engine_order` alone.
 
     The offset of the mean position, order 0, is no vibration.
     """
-    vibration = amplitude.where(amplitude["engine_order"] >= above, 0.0).fillna(0.0)
+    vibration = amplitude.where(amplitude["engine_order"] >= 0.5, 0.0).fillna(0.0)
     return float(vibration["engine_order"][int(np.argmax(vibration.values))])
 
 
