@@ -1,12 +1,15 @@
 """The last lines of a finished run, and those on its extensions: what was found and the file to look at."""
 
 import os
+import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
 
+from r37core.base.io import function_named
 from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.closing import closing_lines
@@ -204,17 +207,15 @@ def test_an_extension_without_a_word_names_what_a_person_opens_first(line, tmp_p
     assert line_of_extension(extension("other.csv"), Sweep(None), tmp_path, 0.0) == ""
 
 
-def test_an_extension_s_own_word(line, tmp_path):
-    pd.DataFrame({"diverged_speeds": [0]}).to_csv(tmp_path / "rotors.csv", index=False)
-    said = line(extension("rotor.png", closing="rotors.dataset.closing"))
-    assert said == "mine: 1 rotor; look at results/rotor.png"
+def test_an_extension_s_own_word(line, monkeypatch):
+    monkeypatch.setitem(sys.modules, "words", SimpleNamespace(closing=lambda results: f"{len(list(results.iterdir()))} rotor"))
+    assert line(extension("rotor.png", closing="words.closing")) == "mine: 1 rotor; look at results/rotor.png"
 
 
 @pytest.mark.parametrize("extension", EXTENSIONS, ids=lambda extension: extension.name)
 def test_the_words_of_the_shipped_extensions_are_there(extension):
     if extension.closing:
-        module = __import__(f"r37core.{extension.closing.rpartition('.')[0]}", fromlist=["closing"])
-        assert callable(module.closing)
+        assert callable(function_named(extension.closing))
 
 
 def table(folder, name, **columns):

@@ -11,6 +11,7 @@ from pydantic import ValidationError
 from r37core.base.rounding import rounded_to, rounded_up
 from r37core.base.units import RPM
 from r37core.config.config_file import OperatingSection
+from r37core.config.declaring import si
 from r37core.figures import style
 from r37core.results import measures
 from r37core.results.columns import OPERATING, ROBUSTNESS, names
@@ -140,21 +141,24 @@ def test_the_ranking_inside_stands_next_to_that_over_all_speeds():
 
 
 def test_both_units_give_the_same_range():
-    rad = OperatingSection.model_validate({"idle_rad_s": 1000.0, "redline_rad_s": 1500.0, "margin_percent": 2.0}).operating()
+    rad = si(OperatingSection.model_validate({"idle_rad_s": 1000.0, "redline_rad_s": 1500.0, "margin_percent": 2.0}))
     rpm = OperatingSection.model_validate({"idle_rpm": 1000.0 * RPM, "redline_rpm": 1500.0 * RPM, "margin_percent": 2.0})
     assert (rad.first, rad.last) == (980.0, 1530.0)
-    assert rpm.operating().idle == pytest.approx(1000.0)
+    assert si(rpm).idle == pytest.approx(1000.0)
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         ({"idle_rpm": 9000.0}, "idle_rad_s and idle_rpm"),
-        ({"redline_rad_s": 900.0}, "a speed above idle"),
-        ({"dwell": [{"from_rad_s": 900.0, "to_rad_s": 1100.0, "share_percent": 5.0}]}, "idle and redline, 1000 and 1500 rad/s"),
-        ({"dwell": [{"from_rad_s": 1200.0, "to_rad_s": 1100.0, "share_percent": 5.0}]}, "above the lowest one"),
+        ({"redline_rad_s": 900.0}, "a redline above idle"),
+        (
+            {"dwell": [{"from_rad_s": 900.0, "to_rad_s": 1100.0, "share_percent": 5.0}]},
+            "between idle and redline, 1000 to 1500",
+        ),
+        ({"dwell": [{"from_rad_s": 1200.0, "to_rad_s": 1100.0, "share_percent": 5.0}]}, "a last speed above the first one"),
         ({"dwell": [{"from_rad_s": 1100.0, "to_rad_s": 1200.0, "share_percent": 60.0}] * 2}, "at most 100 percent"),
-        ({"dwell": [{"to_rad_s": 1200.0, "share_percent": 60.0}]}, "from_rad_s or from_rpm"),
+        ({"dwell": [{"to_rad_s": 1200.0, "share_percent": 60.0}]}, "neither from_rad_s nor from_rpm"),
     ],
 )
 def test_operating_refusals(changes, message):

@@ -18,7 +18,6 @@ from r37core.base.io import InputFileError
 from r37core.base.speeds import RefinedRange
 from r37core.config import ConfigError, Document
 from r37core.config.spread import SpreadEntry
-from r37core.explorer.contents import as_ranges_bear
 from r37core.figures import style
 from r37core.product.extensions import read_settings
 from r37core.product.remarks import remarks as remarks_of

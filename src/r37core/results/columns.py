@@ -204,18 +204,10 @@ ROBUSTNESS = (
     ),
     Column("first_most_revolutions_rad_s", f"lowest speed {_MOST}", f"first speed {_MOST}"),
     Column("first_some_revolutions_rad_s", f"lowest speed {_SOME}", f"first speed {_SOME}"),
-    Column(
-        "widest_range_rad_s",
-        "width of the widest range above yield in most revolutions",
-        f"widest range {_MOST}",
-    ),
+    Column("widest_range_rad_s", "width of the widest range above yield in most revolutions", f"widest range {_MOST}"),
     Column("widest_range_from_rad_s", "lowest speed of the widest range above yield", "widest range from"),
     Column("ranges_most_revolutions", "number of ranges above yield in most revolutions", f"ranges {_MOST}"),
-    Column(
-        "largest_rms_m",
-        "largest normal and tangential rms of the leading edge together",
-        "largest rms, both directions",
-    ),
+    Column("largest_rms_m", "largest normal and tangential rms of the leading edge together", "largest rms, both directions"),
     Column("largest_rms_speed_rad_s", "speed of the largest rms", "speed of the largest rms"),
     Column("drop", _LOST, "amplitude lost above the peak", percent=True),
     Column("largest_gap_rad_s", "largest distance of neighbouring speeds: it can hide a narrower interaction"),
@@ -224,11 +216,7 @@ ROBUSTNESS = (
 """Measures of a response, the same for blades, designs and members."""
 
 OPERATING = (
-    Column(
-        "length_most_revolutions_operating_rad_s",
-        "this length inside the operating range",
-        f"{_MOST}, in operation",
-    ),
+    Column("length_most_revolutions_operating_rad_s", "this length inside the operating range", f"{_MOST}, in operation"),
     Column(
         "length_most_revolutions_operating_within_rad_s", "by how much that length may be off", "in operation, known within"
     ),
@@ -268,6 +256,7 @@ RANKING = (
     Column("rank_operating", "place by the integral over the operating range", "rank in operation"),
 )
 """Columns of ranking.csv next to blade, scene, ranges over members and chances."""
+
 
 def column_named(name: str, columns: Iterable[Column]) -> Column | None:
     """The column of this name: one of `columns`, the scatter or range over members of one, a chance; None for any other."""
