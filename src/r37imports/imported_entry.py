@@ -16,7 +16,7 @@ from r37core.config.blade_sections import (
     RegionSection,
     refuse_taken_names,
 )
-from r37core.config.declaring import DECLARED, declared_by, si_form
+from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import ByName, FileName, LeftOut, Name, Section, left_out, or_section, refused
 from r37core.fem.orientation import Orientation
 from r37imports.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
@@ -89,10 +89,6 @@ class Oriented(BladeKind):
 
     base: Name | LeftOut = left_out("Blade that gives what is left out")
     length_unit: LengthUnit = Field(description="Unit of the coordinates, or its length in metres, also as a quotient: 1/2540")
-    rotor_axis: Any = DECLARED
-    radial: Any = DECLARED
-    rotation: Any = DECLARED
-    axis_point: Any = DECLARED
     sense_check: bool = Field(
         default=True, description="Whether a blade whose trailing edge leads, or whose pressure side is convex, is refused"
     )
@@ -122,12 +118,6 @@ class MeshEntry(Oriented):
     material: MaterialSection
     root: SetOrRule = Field(description="Clamped nodes: sets of the file (BOUNDARY: those of *BOUNDARY) or a rule")
     tip: SetOrRule = Field(description="Faces towards the casing: a set of the file or a rule")
-    pressure_side: Any = DECLARED
-    revolution_tolerance_m: Any = DECLARED
-    drop_free_nodes: Any = DECLARED
-    minimum_scaled_jacobian: Any = DECLARED
-    end_check: Any = DECLARED
-    hub_zr_m: Any = DECLARED
     contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
     kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
     stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
@@ -158,8 +148,6 @@ class MatricesEntry(Oriented):
     with_material: ClassVar[bool] = False
 
     matrices: FileName = Field(description="Folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
-    mass_unit: Any = DECLARED
-    stiffness_unit: Any = DECLARED
     contact: Literal["points", "patches"] = Field(
         default="points",
         description="Contact acts on the nodes of boundary.csv (points) or on patches of its complete tip line",

@@ -14,7 +14,7 @@ from pydantic import Field
 from r37core.base.declared import Key, declared_keys
 from r37core.base.units import LIKE_A_UNIT, SUFFIXES
 from r37core.config import ConfigError, Document, checked_scene, si_fields, si_form
-from r37core.config.declaring import DECLARED, declared_by
+from r37core.config.declaring import declared_by, section_of
 from r37core.config.section import Section
 
 
@@ -35,13 +35,12 @@ class Seal:
 class SealSection(Section):
     """A seal."""
 
-    face: object = DECLARED
     swirl: list[float] = Field(default=[])
 
 
 def test_the_dataclass_decides_what_the_schema_has():
     schema = SealSection.model_json_schema()
-    keys = ["face", "swirl", "clearance_m", "slope_deg", "teeth", "stiffness_n_m2", "speed_rad_s", "speed_rpm"]
+    keys = ["swirl", "clearance_m", "slope_deg", "teeth", "face", "stiffness_n_m2", "speed_rad_s", "speed_rpm"]
     assert list(schema["properties"]) == keys
     assert schema["required"] == ["clearance_m"]
     assert schema["description"] == "A seal."
@@ -58,7 +57,7 @@ def test_the_dataclass_decides_what_the_schema_has():
         ({"clearance_m": 0.2}, "clearance_m: found 0.2; allowed: number, at least 1e-06, at most 0.1"),
         ({"face": "felt"}, "face: found 'felt'; allowed: one of plain, brush"),
         ({"slope_deg": 91}, "slope_deg: found 91; allowed: tip or number, more than -90, less than 90"),
-        ({"tooth": 1}, "found unknown key tooth; allowed keys: face, swirl, clearance_m, slope_deg, teeth"),
+        ({"tooth": 1}, "found unknown key tooth; allowed keys: swirl, clearance_m, slope_deg, teeth, face"),
     ],
 )
 def test_and_what_a_message_says(change, message):
@@ -76,15 +75,8 @@ def test_and_the_section_becomes_the_dataclass_again():
 
 
 def test_a_section_may_take_some_of_the_keys_or_leave_all_of_them_out():
-    @declared_by(Seal, only_listed=True)
-    class Some(Section):
-        teeth: object = DECLARED
-
-    @declared_by(Seal, optional=True)
-    class Changes(Section):
-        """What differs."""
-
-    assert list(Some.model_fields) == ["teeth"]
+    Changes = section_of(Seal, "What differs.", optional=True)
+    assert list(section_of(Seal, "Some of it.", only=["teeth"]).model_fields) == ["teeth"]
     assert dict(Changes()) == dict.fromkeys(one.name for one in declared_keys(Seal))
     assert {one.field for one in declared_keys(Seal)} == {field.name for field in fields(Seal)} - {"swirl"}
 

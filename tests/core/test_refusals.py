@@ -1,6 +1,7 @@
 """Configurations that cannot be meant: each ends in one message with file, line and key."""
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 import yaml
 from call_counts import calls_of
 from pydantic import TypeAdapter
+from refusal_tables import check_refusal, refusal_rows
 
 from r37core.base.io import TextFileError
 from r37core.base.speeds import exact_text
@@ -65,158 +67,9 @@ def test_what_cannot_be_zero_cannot_be_almost_zero(name):
     assert not re.search(r"'exclusiveMinimum': 0(\.0)?\b", schema)
 
 
-def section(text, message):
-    """config.yaml with one more section."""
-    return "# exports:", f"{text}\n\n# exports:", message
-
-
-def signals(text, message):
-    return section(f"signals: {{ {text} }}", rf"signals\.{message}")
-
-
-def run_up(text, message):
-    return section(f"run_ups: {{ a: {{ {text} }} }}", rf"run_ups\.a{message}")
-
-
-def between(first, last, key, value, message):
-    """A run-up between two speeds (rad/s); the key is refused."""
-    return run_up(f"from_rad_s: {first}, to_rad_s: {last}, {key}: {value}", rf"\.{key}: {message}")
-
-
-def about_crossing(order, first, others, message):
-    return run_up(f"crossing: {{ mode: 1B, engine_order: {order}, first: {first}, last: 0.1 }}, {others}", message)
-
-
-def parameter(text, message):
-    return section(f"tradeoff: {{ parameters: {{ {text} }} }}", rf"tradeoff\.parameters{message}")
-
-
-def rule(text, message):
-    return "speeds_for: []", f"speeds_for: [{{ {text} }}]", message
-
-
-def speeds(text, message):
-    return "start: 750, stop: 2000, step: 20, refine_to: 1", f"start: 750, {text}", rf"speeds{message}"
-
-
-CONFIG_REFUSALS = [
-    signals("probes_deg: [10]", "probes_deg: found probes_deg without speeds; allowed: speeds_rad_s"),
-    signals("gauges: { a: { chord: 0.5, span: 0.5, side: suction } }", r"gauges: found gauges without speeds"),
-    signals("speeds_rad_s: [9], probes_deg: [1, 2, 1.0]", r"probes_deg\.2: found a probe at 1 degrees twice; allowed: each"),
-    signals("speeds_rad_s: [900, 900]", r"speeds_rad_s\.1: found 900(\.0)? twice; allowed: each once"),
-    signals("speeds_rad_s: [900], revolutions: 500", "revolutions: found 500; allowed: at most those of a run, 200 in 'abrad"),
-    section(
-        "operating: { idle_rad_s: 900, redline_rad_s: 1300 }\n"
-        "requirements: { campbell_margins: [{ mode: '', engine_orders: [4], at_least_percent: 5 }] }",
-        r"requirements\.campbell_margins\.0\.mode: found ''; allowed: 1B, 1T, 2B",
-    ),
-    signals("speeds_rad_s: [0.02]", r"speeds_rad_s: found 0\.02 rad/s, a revolution of"),
-    run_up("from_rad_s: 9, to_rad_s: 10", r"\.rate_rad_s2: found nothing; allowed: one of rate_rad_s2, rate_rpm_s, rev"),
-    run_up("from_rad_s: 9, from_rpm: 9, to_rad_s: 10", r"\.from_rpm: found from_rad_s and from_rpm; allowed: one of"),
-    between(900, 900, "rate_rpm_s", 5, "found a rate between equal speeds; allowed: revolutions"),
-    between(900, 1000, "rate_rad_s2", 1e-3, r"found a change from 900 .* 1\.512e\+07 revolutions; allowed: .* from 0\.151"),
-    between(900, 1900, "revolutions", 0.1, r"found a change from 900 to 1900 .* within 0\.1 revolutions; allowed: 0\.347 to 1"),
-    between(1999, 1999.0000001, "rate_rad_s2", 10, r"found a change from 1999 to 1999\.0000001 rad/s within"),
-    between(1900, 2100, "revolutions", 5, r"found 2100 rad/s; allowed: up to structure\.maximum_speed_rad_s, 2000"),
-    run_up("from_rad_s: 9, to_rad_s: 10, revolutions: 5, blades: [Reff]", r"\.blades: found 'Reff'; allowed: Ref, L50"),
-    run_up("from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 10, lining: worn", r"\.lining: found worn in the scene 'direct', wh"),
-    about_crossing(4, 0.0, "from_rad_s: 900, revolutions: 5", r"\.crossing: found from_rad_s and crossing; allowed: one of"),
-    about_crossing(4, -0.5, "revolutions: 0.1", r"\.revolutions: found a change from 1000 to 2200 rad/s within 0\.1 revol"),
-    about_crossing(40, 0.0, "revolutions: 5", r"\.crossing\.engine_order: found 40; allowed: at most campbell\.highest_engine"),
-    section(
-        "run_ups: { a: { from_rad_s: 9, to_rad_s: 10, revolutions: 1 }, A: { from_rad_s: 9, to_rad_s: 10, revolutions: 1 } }",
-        r"run_ups\.A: found 'A' beside 'a'",
-    ),
-    section("tradeoff: { blade: Reff }", r"tradeoff\.blade: found 'Reff'; allowed: Ref, L50"),
-    section("tradeoff: { scenes: [wet] }", r"tradeoff\.scenes: found 'wet'; allowed: abradable"),
-    section("tradeoff: { engine_order: 21 }", r"engine_order: found 21; allowed: at most campbell"),
-    section("tradeoff: { base: standart }", r"tradeoff\.base: found 'standart'; allowed: draft"),
-    section("stability: { extremes: [lobe] }", r"stability\.extremes\.0: found 'lobe'; allowed: all, or some of .*lobes"),
-    parameter("level: { values: [draft, refrence], reference: draft }", r"\.level: found 'refrence'; allowed: draft"),
-    parameter("bars:", r"\.bars: found nothing"),
-    parameter("boundary_nodes: { values: [2, 4], reference: 15 }", ".*reference: found 15; allowed: one of the values, 2, 4"),
-    parameter("boundary_nodes: { values: [2, 4, 4], reference: 2 }", r"\.boundary_nodes\.values\.2: found 4 twice"),
-    parameter("stress_region: { values: [submesh, all], reference: submesh }", ".* found 'all'; .*one of submesh, whole"),
-    rule("blades: [Reff], speeds: [900]", r"speeds_for\.0\.blades: found 'Reff'; allowed: Ref, L50"),
-    rule("scenes: [dirct], speeds: [900]", r"speeds_for\.0\.scenes: found 'dirct'; allowed: abrad"),
-    rule("blades: [Ref, Ref], speeds: [900]", r"speeds_for\.0\.blades\.1: found 'Ref' twice"),
-    rule("scenes: [direct], speeds: [0.01]", r"speeds: found 0\.01 .* of 1\.31e\+08 steps .* from 0\.313 rad/s with"),
-    speeds("stop: 700", r"\.0: found a range from 750 to 700; allowed: stop not below start"),
-    speeds("stop: 2000, step: 1e-3", r": found 1\.25e\+06 speeds from 750 to 2000 .*; allowed: at most 100000"),
-    speeds("stop: 2000, step: 0.02", ": found 875014 simulations of 7 blades in 2 scenes; allowed: at most 200000"),
-    ("blades: all", "blades: [Ref, Ref]", r"blades\.1: found 'Ref' twice; allowed: each once"),
-    ("blades: all", "blades: [50]", r"blades\.0: found 50; allowed: string"),
-    ("blades: all", "blades:", r"blades: found nothing"),
-    ("blades: all", "blades: Ref", r"blades: found 'Ref'; allowed: all or list of string"),
-    ("blades_file: config/blades.yaml", "blades_file: ' '", r"blades_file: found ' '"),
-    ("    corners: true", "    corners: 1", r"structure\.boundary\.corners: found 1; allowed: boolean"),
-    ("fidelity: standard", "fidelity: standard\nfidelity: draft", r"the key 'fidelity' is given twice"),
-    ("fidelity: standard", "fidelity:\tstandard", r"found a tab; indent with blanks"),
-    ("fidelity: standard", "yes: standard", r"found the key 'yes', which is true or false in YAML"),
-]
-
-
-def with_rows(first_span, first_sweep, last_span, last_sweep, message):
-    """A blade with two rows of sweep (cm) at some spans (%)."""
-    spans = ((first_span, first_sweep), (last_span, last_sweep))
-    rows = ", ".join(f"{{span_percent: {span}, sweep_cm: {sweep}, lean_deg: 0}}" for span, sweep in spans)
-    return f"X: {{base: Ref, sweep_lean: [{rows}]}}", rf"X\.sweep_lean{message}"
-
-
-BLADE_REFUSALS = [
-    ("50: {base: Ref}", r"50: found '50'; allowed: a name of .* that is neither 'all' nor a number"),
-    ("5.5: {base: Ref}", r"found the key '5\.5', which is a number in YAML; allowed: a name"),
-    ("all: {base: Ref}", r"all: found 'all'; allowed: a name"),
-    ("A__b: {base: Ref}", r"A__b: found 'A__b'; allowed: a name of letters, digits, hyphens and single underscores"),
-    ('"A\\n": {base: Ref}', r"A\\n: found 'A\\n'; allowed: a name of letters"),
-    ("figures: {base: Ref}", r"figures: found the blade 'figures'; allowed: another name"),
-    ("ref: {base: Ref}", r"ref: found 'ref' beside 'Ref'; allowed: names that differ in more than capitals"),
-    ("X: {base: Ref, stacking_table: .}", r"X\.stacking_table: config cannot be read: Is a directory"),
-    ("X: {base: Ref, profiles: a.csv}", r"X\.base: found profiles and base; allowed: one of them"),
-    (
-        "X: {base: Ref, vary: {sweep_percent: {start: 0, stop: 10, step: 1e12}}}",
-        r"X\.vary\.sweep_percent\.step: found 1e\+12; allowed: at most stop - start \(10\)",
-    ),
-    ("X: null", r"X: found nothing; allowed: mapping with the keys profiles, base"),
-    ("X: {}", r"X: found neither profiles nor base"),
-    ("X: {base: Nope}", r"X\.base: found 'Nope'; allowed: another blade"),
-    ("X: {base: Y}\nY: {base: X}", r"Y\.base: found 'X'; allowed: another blade"),
-    ("X: {base: Ref}\nX: {base: L50}", r"not readable as YAML: .*the key 'X' is given twice"),
-    (
-        "X: {base: Ref, chordwise_sweep_deg: 5, stacking_table: t.csv}",
-        r"X\.chordwise_sweep_deg: found stacking_table and chordwise_sweep_deg",
-    ),
-    ("X: {base: Ref, stacking_table: config/stacking/rotor37.csv}", r"blade X: no row of the table has 'X'"),
-    ("X: {profiles: config/profiles/rotor37.csv}", r"X\.material: missing key youngs_modulus_pa"),
-    with_rows(0, 0, 90, 0, r": blade X: the spans run from 0% to 90%"),
-    with_rows(0, 100, 100, 0, r": blade X: span 0%: found a sweep of 100 cm; allowed: up to the height of the blade, 7\."),
-]
-
-
-@pytest.mark.parametrize(("text", "message"), BLADE_REFUSALS)
-def test_what_is_refused_in_blades_yaml(with_blades, text, message):
-    with pytest.raises(ConfigError, match=rf"^config/(blades\.yaml:\d+|stacking/rotor37\.csv): .*{message}"):
-        with_blades(text)
-
-
-SCENE_REFUSALS = [
-    ("[spectrum, signal, stress, wear, energy]", "[stress, stress]", r"abradable\.results\.1: found stress twice"),
-    *(
-        ("[spectrum, signal, stress, wear, energy]", f"[{kind}]", rf"\.results: found {kind}; allowed: only with stress")
-        for kind in ("shapes", "fatigue", "static_stress")
-    ),
-    ("abradable:", '"abradable\\n":', r"abradable\\n: found 'abradable\\n'; allowed: a name of letters"),
-    ("    bars: 10000", "    bars: 10_000", r"lining\.bars: found '10_000'; allowed: integer"),
-    ("\ndirect:", "\ndirect:\n  stress_history_speeds_rad_s: [1717.5]", "stress_history.*: found 1717.5; allowed: speeds"),
-]
-REFUSALS = {"config": CONFIG_REFUSALS, "scenes": SCENE_REFUSALS}
-
-
-@pytest.mark.parametrize(("name", "old", "new", "message"), [(name, *row) for name, rows in REFUSALS.items() for row in rows])
-def test_what_is_refused_in_config_and_scenes_yaml(config_copy, name, old, new, message):
-    edit(config_copy / f"config/{name}.yaml", old, new)
-    with pytest.raises(ConfigError, match=rf"^config/{name}\.yaml:\d+: .*{message}"):
-        read_settings(config_copy)
+@pytest.mark.parametrize(("kind", "snippet", "message"), refusal_rows(Path(__file__).with_name("refusals.txt")))
+def test_what_is_refused_in_a_file(config_copy, kind, snippet, message):
+    check_refusal(config_copy, kind, snippet, message)
 
 
 def test_an_elastic_casing_under_a_rotor_is_not_for_central_differences(config_copy):
@@ -242,8 +95,6 @@ def test_runs_that_settle_are_of_single_blades_without_signals(config_copy):
     message = r"draft\.time_integration\.until: found settled with the rotor of 'rotor_abradable'; allowed: until: revolutions"
     with pytest.raises(ConfigError, match=message):
         read_settings(config_copy, command_line_document(draft | {"scenes": ["rotor_abradable"]}))
-    with pytest.raises(ConfigError, match=r"signals\.speeds_rad_s: found speeds, with runs of 'abradable' that end as"):
-        read_settings(config_copy, command_line_document(draft | {"signals": {"speeds_rad_s": [900]}}))
     edit(config_copy / "config/scenes.yaml", "rotor_abradable:\n", "rotor_abradable:\n  until: settled\n")
     with pytest.raises(ConfigError, match=r"scenes\.yaml:\d+: rotor_abradable\.until: found settled with a rotor; allowed: un"):
         read_settings(config_copy)
@@ -419,14 +270,3 @@ def test_speeds_stand_exactly_in_file_names():
         assert re.fullmatch(r"[0-9.]+", text)
     assert exact_text(750.0) == "750"
     assert exact_text(near) != exact_text(1000.0)
-
-
-def test_signals_of_no_scene_are_refused(config_copy):
-    scenes = config_copy / "config/scenes.yaml"
-    scenes.write_text(scenes.read_text().replace("signal, ", ""))
-    edit(config_copy / "config/config.yaml", "speeds_for: []", "signals: { speeds_rad_s: interactions }")
-    message = (
-        r"signals\.speeds_rad_s: found speeds, though no scene that is run has signal among its results; allowed: such a scene"
-    )
-    with pytest.raises(ConfigError, match=rf"^config/config\.yaml:\d+: {message} \(abradable, direct of config/scenes\.yaml"):
-        read_settings(config_copy)

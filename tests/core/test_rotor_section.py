@@ -55,48 +55,21 @@ def test_tables_by_number_stand_in_a_file(config_copy, table):
         read_settings(config_copy)
 
 
-BLADES = "the number of a blade, from 1 to 1000"
-BOUNDS = "at least -0.1, at most 0.1"
-REFUSALS = [
-    ({"blades": 0}, "blades: found 0"),
-    ({"missing": [5]}, "missing: found blade 5; allowed: 1 to 4"),
-    ({"blades": 2, "missing": [1, 2]}, "missing: found all blades"),
-    ({"angles_deg": [0.0]}, "angles_deg: found 1 angles; allowed: 4"),
-    ({"longer_spread_m": {"normal_percent": 1.0}}, "longer_spread_m: found a spread in percent"),
-    ({"blades": 36, "mistuning_spread_percent": {"normal": 50.0}}, "mistuning_spread_percent: .*a narrower spread, a unif"),
-    ({"longer_m": {"a": 1e-5}}, rf"longer_m\.a: found the key 'a'; allowed: {BLADES}"),
-    ({"longer_m": {0: 1e-5}}, rf"longer_m\.0: found the key 0; allowed: {BLADES}"),
-    ({"longer_m": {1001: 1e-5}}, rf"longer_m\.1001: found the key 1001; allowed: {BLADES}"),
-    ({"longer_m": {5: 1e-5}}, r"longer_m\.5: found blade 5; allowed: 1 to 4, the number of blades"),
-    ({"longer_m": {"1": 1e-5, 1: 2e-5}}, r"longer_m: found blade 1 twice; allowed: each blade once"),
-    ({"longer_m": [1e-5]}, r"longer_m: found \[1e-05\]; allowed: a value for each number of a blade, as in"),
-    ({"longer_m": {1: None}}, rf"longer_m\.1: found nothing; allowed: number, {BOUNDS}"),
-    ({"longer_m": {1: 0.2}}, rf"longer_m\.1: found 0\.2; allowed: number, {BOUNDS}"),
-    ({"mistuning_percent": {1: -96.0}}, r"mistuning_percent\.1: found -96\.0; allowed: number, at least -95, at most 1000"),
-    ({"longer_spread_m": {"uniform": 1e12}}, r"longer_spread_m\.uniform: found 1e\+12; allowed: at most 0\.1$"),
-    ({"longer_spread_m": {"between": [-0.2, 0.0]}}, rf"longer_spread_m\.between: found -0\.2; allowed: {BOUNDS}$"),
-    ({"longer_spread_m": {"values": [0.0, 1e12]}}, rf"longer_spread_m\.values: found 1e\+12; allowed: {BOUNDS}$"),
-    ({"longer_spread_m": {"normal": 0.1}}, rf"longer_spread_m: found -?0\.1\d* of blade \d; allowed: {BOUNDS}; a narrower"),
-    ({"mistuning_spread_percent": {"uniform": 96.0}}, r"mistuning_spread_percent\.uniform: found 96; allowed: at most 95$"),
-    ({"angles_deg": [5.0] * 4}, r"angles_deg\.1: found 5, and blade 1 at 5; allowed: at least 0\.1 degrees between blades"),
-    ({"angles_deg": [0.0, 90.0, 180.0, 359.95]}, r"angles_deg\.0: found 0, and blade 4 at 359\.95; allowed: at least 0\.1 deg"),
-]
+NO_NUMBER = "allowed: the number of a blade, from 1 to 1000"
 
 
-@pytest.mark.parametrize(("keys", "message"), REFUSALS)
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"longer_m": {0: 1e-5}}, rf"longer_m\.0: found the key 0; {NO_NUMBER}"),
+        ({"longer_m": {1001: 1e-5}}, rf"longer_m\.1001: found the key 1001; {NO_NUMBER}"),
+        ({"longer_m": {"1": 1e-5, 1: 2e-5}}, r"longer_m: found blade 1 twice; allowed: each blade once"),
+    ],
+)
 def test_what_no_rotor_has_is_refused_in_one_line(keys, message):
     with pytest.raises(ConfigError, match=rf"^scenes\.yaml: rotor\.{message}") as refusal:
         checked_scene(lined(**{"blades": 4} | keys))
     assert "\n" not in str(refusal.value)
-
-
-def test_a_rotor_has_no_signal_and_needs_a_lining():
-    entry = lined(blades=4)
-    with pytest.raises(ConfigError, match="results: found signal; allowed: only in a scene without rotor"):
-        checked_scene(entry | {"results": ["signal"]})
-    del entry["lining"]
-    with pytest.raises(ConfigError, match="run a single blade for each"):
-        checked_scene(entry)
 
 
 def test_what_is_at_a_bound_is_a_rotor():

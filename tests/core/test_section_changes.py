@@ -1,6 +1,5 @@
 """Blades whose profiles have another stagger, camber, chord or thickness, against the tables that they change."""
 
-import re
 from dataclasses import replace
 from functools import partial
 from operator import attrgetter
@@ -13,7 +12,6 @@ from r37core.blade.blade_map import Blade
 from r37core.blade.profile import Profile
 from r37core.blade.section_changes import SectionChange, SpanLaw, changed_profile
 from r37core.blade.stacking import conical_stacking
-from r37core.config import ConfigError
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.mesh.generate import generate_mesh
@@ -203,21 +201,3 @@ def test_laws_vary_in_families_and_tables(with_blades):
     assert camber(shapes(blades["Rows_4"]))[-1] - camber(base)[-1] == pytest.approx(4.0)
     assert blades["A"].definition.profiles[0].maximum_thickness == 1.2 * base[0].parameters.maximum_thickness
     assert chord(shapes(blades["B"])) == pytest.approx(0.9 * chord(base))
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("stagger_deg: 40", ": Mine.stagger_deg: blade Mine: stagger_deg: span 0%: inlet_angle is 92.4"),
-        ("chord_percent: [{ span_percent: 0, value: 90 }, { span_percent: 60, value: 90 }]",
-         "Mine.chord_percent: blade Mine: chord_percent: the spans run from 0% to 60%; the table must reach 0 and 100%"),
-        ("chord_percent: { hub: 10, tip: 1000 }", "chord_percent: span 70%: the profile crosses the one at span 50%"),
-        ("chord_percent: [{ span_percent: 0, value: 900 }, { span_percent: 10, value: 10 }, { span_percent: 90, value: 10 }, "
-         "{ span_percent: 100, value: 10 }]", "chord_percent: span 15%: the share of the chord is -305.208%; it"),
-        ("camber_deg: 80", "a smaller change near this span may be possible"),
-        ("stagger_deg: 1, vary: { stagger_deg.tip: [1] }", "design Mine_1: found no stagger_deg.tip to vary; rows of a table"),
-    ],
-)  # fmt: skip
-def test_refusals_name_blade_key_and_span(with_blades, text, message):
-    with pytest.raises(ConfigError, match=re.escape(message)):
-        with_blades(f"Mine: {{ base: Ref, {text} }}\n")

@@ -10,7 +10,7 @@ from r37core.contact.casing import Casing
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 
-from .declaring import DECLARED, declared_by, si, si_fields
+from .declaring import declared_by, si, si_fields
 from .section import LeftOut, Section, Without, check_table, left_out, refused
 
 _HEIGHTS = ("amplitude_clearances", "amplitude_m")
@@ -73,10 +73,6 @@ class RingSection(Section):
 class RingModeSection(Section):
     """A mode of the casing, as a test or a finite-element model of it gives them; a pair where it has nodal diameters."""
 
-    nodal_diameter: Any = DECLARED
-    frequency_hz: Any = DECLARED
-    modal_mass_kg: Any = DECLARED
-    damping_ratio: Any = DECLARED
     tangential_ratio: Annotated[float, Field(ge=-10, le=10)] | LeftOut = left_out(
         "Tangential over radial displacement; by default 1/nodal_diameter (bending alone), or 0"
     )
@@ -95,16 +91,8 @@ class CasingSection(Section):
     one_of = (("clearance_m", "clearance"),)
     at_most_one_of = (_HEIGHTS, ("ring", "ring_modes"))
 
-    clearance_m: Any = DECLARED
     clearance: ClearanceSection | LeftOut = None
     clearance_over_revolutions: ChangeSection | LeftOut = None
-    cone_angle_deg: Any = DECLARED
-    lobes: Any = DECLARED
-    width: Any = DECLARED
-    amplitude_clearances: Any = DECLARED
-    amplitude_m: Any = DECLARED
-    rise_fraction: Any = DECLARED
-    rise_revolutions: Any = DECLARED
     ring: RingSection | LeftOut = left_out("Elastic casing as a ring; rigid without it")
     ring_modes: Annotated[list[RingModeSection], Field(min_length=1, max_length=200)] | LeftOut = left_out(
         "Elastic casing by modes, in place of ring"

@@ -12,7 +12,7 @@ from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice
 
 from .blade_sections import Contact, Kinematics, RegionSection, refuse_taken_names
-from .declaring import DECLARED, declared_by, section_of, si
+from .declaring import declared_by, section_of, si
 from .section import AllOrNames, ByName, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 
@@ -33,7 +33,7 @@ _SHIPPED_REGIONS: dict[str, RegionSection | None] = {
 }
 
 
-@declared_by(ReductionChoice, only_listed=True)
+@declared_by(ReductionChoice, only=("quadratic_modes", "spin_softening", "recover_whole_blade"))
 class StructureSection(Section):
     """Geometry and reduced model."""
 
@@ -41,12 +41,9 @@ class StructureSection(Section):
     boundary: Boundary = Boundary()
     maximum_speed_rad_s: Speed = Field(default=2000.0, description="Highest speed of the basis and the Campbell diagram")
     kinematics: Kinematics | LeftOut = left_out("Kinematics of all blades, in place of `kinematics` in blades.yaml")
-    quadratic_modes: Any = DECLARED
-    spin_softening: Any = DECLARED
     stress_regions: ByName[RegionSection | None] = Field(
         default=_SHIPPED_REGIONS, description="Regions of the stress; the first decides, null leaves one out of every blade"
     )
-    recover_whole_blade: Any = DECLARED
 
     def _check(self) -> None:
         if not any(self.stress_regions.values()):
@@ -100,11 +97,6 @@ class RefinementSection(Section):
         ],
         description="Speed windows in which interactions are expected",
     )
-    change: Any = DECLARED
-    peak: Any = DECLARED
-    steep_change: Any = DECLARED
-    steep_prominence: Any = DECLARED
-    largest_share: Any = DECLARED
     direct: DirectRefinementSection = DirectRefinementSection()
 
     def scene_refinement(self, scene: Scene) -> Self:

@@ -5,7 +5,7 @@ of nothing else; `si` makes the dataclass of a section, with those of the sectio
 """
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import MISSING, fields
 from functools import cache
 from types import NoneType, UnionType
@@ -21,21 +21,18 @@ from .section import LeftOut, Section
 S = TypeVar("S", bound=Section)
 T = TypeVar("T")
 
-DECLARED: Any = Field()
-"""Placeholder in a section for a key that the dataclass declares; keys without a placeholder follow at the end."""
-
 
 def declared_by(
-    kind: type, *, optional: bool = False, only_listed: bool = False, **defaults: Any
+    kind: type, *, optional: bool = False, only: Collection[str] = (), **defaults: Any
 ) -> Callable[[type[S]], type[S]]:
-    """Complete a section by the keys that the dataclass `kind` declares.
+    """Complete a section by the keys that the dataclass `kind` declares, after its own.
 
-    `optional`: every key may be left out; `only_listed`: only those that have a place in the section; `defaults`: of keys,
-    where this section's is another than the dataclass's.
+    `optional`: every key may be left out; `only`: some of the keys; `defaults`: of keys, where this section's is another than
+    the dataclass's.
     """
 
     def completed(section: type[S]) -> type[S]:
-        keys = [key for key in declared_keys(kind) if key.name in section.model_fields or not only_listed]
+        keys = [key for key in declared_keys(kind) if not only or key.name in only]
         made: dict[str, Any] = {key.name: _field(key, optional, defaults.get(key.name, MISSING)) for key in keys}
         model = create_model(section.__name__, __base__=section, __module__=section.__module__, __doc__=section.__doc__, **made)
         model.declares = kind

@@ -9,7 +9,7 @@ from r37core.contact.scene import Scene
 from r37core.rom.reduction_choice import ReductionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
-from .declaring import DECLARED, declared_by, si_form
+from .declaring import declared_by, section_of, si_form
 from .document import Documents
 from .section import ByName, LeftOut, Section, Speed, left_out, refused
 
@@ -28,12 +28,7 @@ class Mesh(Section):
     )
 
 
-@declared_by(ReductionChoice, only_listed=True)
-class Reduction(Section):
-    """Size of the reduced model."""
-
-    fixed_interface_modes: Any = DECLARED
-    basis_tolerance: Any = DECLARED
+Reduction: Any = section_of(ReductionChoice, "Size of the reduced model.", only=("fixed_interface_modes", "basis_tolerance"))
 
 
 class Measured(Section):
@@ -77,11 +72,7 @@ class TimeIntegration(Section):
     largest_time_step_s: Steps | LeftOut = left_out(
         "Largest steps by kind of scene, in place of time_step_s; an unstable one is shortened"
     )
-    revolutions: Any = DECLARED
     speed_step_rad_s: Speed = Field(description="Step of speed ranges without one")
-    integrator: Any = DECLARED
-    until: Any = DECLARED
-    highest_frequency_hz: Any = DECLARED
     stress_instants: int = Field(default=62, ge=1, le=10000, description="Stress evaluations per revolution")
     samples_per_stress_instant: int = Field(
         default=8, ge=1, le=10000, description="Samples of the tip motion per stress evaluation"

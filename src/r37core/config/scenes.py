@@ -8,7 +8,7 @@ from r37core.contact.scene import DampingRow, DampingTable, Friction, Lining, Sc
 from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
 from .casing_section import CasingSection
-from .declaring import DECLARED, declared_by, section_of, si, si_fields
+from .declaring import declared_by, section_of, si, si_fields
 from .document import ConfigRefusals, Document, completed
 from .rotor_section import RotorSection
 from .section import ByName, LeftOut, Name, Rpm, Section, Speed, check_table, left_out, or_section, refused
@@ -96,8 +96,6 @@ class SceneEntry(Section):
     damping_ratio: DampingRatio = Field(
         default=0.0005, description="Damping ratio; a table over frequency, or by mode and speed"
     )
-    gap: Any = DECLARED
-    divergence_limit_m: Any = DECLARED
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = left_out(
         "Revolutions of a run, in place of the fidelity level's"
     )

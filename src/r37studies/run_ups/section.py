@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field
 
-from r37core.config.declaring import DECLARED, declared_by, si_form
+from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, check_names, refused
 
 from .choice import Crossing, RunUpChoice
@@ -18,8 +18,6 @@ Share = Annotated[float, Field(ge=-0.5, le=1)]
 class CrossingSection(Section):
     """Speeds about a crossing of each blade's own Campbell diagram."""
 
-    mode: Any = DECLARED
-    engine_order: Any = DECLARED
     first: Share = Field(description="Start, as a share of the crossing's speed above it")
     last: Share = Field(description="End, as first; below first it is a run-down")
 
@@ -30,10 +28,6 @@ class RunUpEntry(Section):
 
     blades: AllOrNames = Field(default="all", description="Blades of the run-up")
     scenes: AllOrNames = Field(default="all", description="Scenes of the run-up")
-    from_rad_s: Any = DECLARED
-    from_rpm: Any = DECLARED
-    to_rad_s: Any = DECLARED
-    to_rpm: Any = DECLARED
     crossing: CrossingSection | LeftOut = Field(default=None, description="Speeds about a crossing, in place of numbers")
 
     def _check(self) -> None:
