@@ -10,6 +10,7 @@ from test_interactions import CHOICE, campbell
 
 from r37core.results.columns import MOST_REVOLUTIONS, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from r37core.results.contact_ranges import rows_above_yield
+from r37core.results.danger import moved_by_error, ranges_of
 from r37core.results.exceedance import DEVIATIONS, Exceedance, SpeedRange, exceedance_of, joined, length_of, ranges_above
 from r37core.results.interactions import find_interactions
 from r37core.results.ranking import chance_to_be_better, ranking_table, ranks_of, robustness
@@ -43,6 +44,19 @@ def test_ranges_are_of_straight_lines():
     assert joined(both) == [SpeedRange(0.0, 9.0, truncated=True), SpeedRange(9.5, 10.0, truncated=False)]
     touching = [SpeedRange(low, high, truncated=False) for low, high in ((0.0, 1.0), (2.0, 5.0), (3.0, 4.0), (5.0, 6.0))]
     assert joined(touching) == [SpeedRange(0.0, 1.0, truncated=False), SpeedRange(2.0, 6.0, truncated=False)]
+
+
+def test_speeds_above_yield_by_stress_and_by_its_error():
+    """A stress of 1.5 of yield at one speed, in a fifth of the revolutions; an error moves a length up or down."""
+    runs = {"status": [0, 0, 0], "max_von_mises_ever": [1.0, 3.0, 1.0], "share_of_revolutions_above_yield": [0.0, 0.2, 0.0]}
+    response = xr.Dataset({name: ("speed", values) for name, values in runs.items()}, {"speed": [1000.0, 1100.0, 1200.0]})
+    response = response.assign(yield_stress=2.0, lined=1.0, flat=("speed", [4.0, 1.8, 1.8]))
+    most, some, ever = ranges_of(response, exceedance_of(response)).values()
+    assert (most, some) == ([], [SpeedRange(1025.0, 1175.0, truncated=False)])
+    assert ever == [SpeedRange(1025.0, 1175.0, truncated=False)]
+    assert moved_by_error(response, "max_von_mises_ever", 0.2) == pytest.approx(40.0)
+    assert moved_by_error(response, "flat", 0.25) == pytest.approx(200.0 - 100.0 / 1.1)
+    assert np.isnan(moved_by_error(response, "flat", np.nan))
 
 
 @pytest.mark.parametrize("step", [1.0, 5.0, 10.0])

@@ -132,6 +132,16 @@ def test_both_flanks_of_a_peak_of_one_speed_are_looked_at():
     assert asked_of(values) == [peak - 10.0, peak + 10.0]
 
 
+def test_a_value_at_the_share_of_a_peak_belongs_to_it():
+    heights = np.full(len(PLAN.certain), 0.25)
+    heights[9:12] = 0.4, 1.0, 0.5
+    rows = {speed: [0, height, 0.0, 0.0] for speed, height in zip(PLAN.certain, heights, strict=True)}
+    alone = replace(CHOICE, change=2.0, steep_change=2.0, largest_share=1.0)
+    for share, last in ((0.5, 11), (0.49, 10)):
+        asked = next_speeds(GRID, rows, replace(alone, peak=share))
+        assert asked == [speed + 10.0 for speed in PLAN.certain[9 : last + 1]]
+
+
 def test_a_branch_its_peak_and_its_drop_are_found_to_one_grid_step():
     rounds, speeds = asked(spiked((1600.0, 1727.0, 1e-3)))
     assert {1726.0, 1727.0, 1728.0} <= set(speeds)
@@ -258,6 +268,8 @@ def test_a_window_is_halved_to_the_end():
     grid = RefinedRange(1000.0, 1.0, 8, 16)
     window = (1000.0, 1008.0, 1.0)
     assert window_speeds(grid, [window]) == [float(speed) for speed in range(1001, 1008)]
+    # an interval that is as long as asked for stays
+    assert window_speeds(grid, [(1000.0, 1008.0, 2.0)]) == [1002.0, 1004.0, 1006.0]
     # as far as the second interval's first speed and no farther; and from the first one's last
     assert window_speeds(grid, [(990.0, 1000.0, 1.0)]) == []
     assert window_speeds(grid, [(1016.0, 1030.0, 1.0)]) == []

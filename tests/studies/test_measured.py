@@ -128,7 +128,24 @@ def test_feature_speed_a_limit_lies_anywhere_between_two_speeds(read):
     points = read(text, reading(speed_of="first_above", limit=2.0))
     assert points.values == (115.0,)
     np.testing.assert_allclose(points.deviations, 10.0 / np.sqrt(12.0))
-    assert feature_speed(np.array([1.0, 2.0]), np.array([1.0, 1.0]), 2.0) == np.inf
+
+
+@pytest.mark.parametrize(
+    "values, limit, speed",
+    [
+        ([1, 1, 1, 1], 2.0, np.inf),
+        ([3, 1, 1, 1], 2.0, 1.0),
+        ([1, np.inf, 1, 1], 2.0, 2.0),
+        ([1, 1, 2, 4], 3.0, 3.5),
+        ([4, 3, 1, 1], None, 1.0),
+        ([1, 1, 3, 4], None, 4.0),
+        ([1, 3, 2, 1], None, 2.0 + 1.0 / 6.0),
+        ([1, 3, 3, 1], None, 2.5),
+        ([1, 3, np.inf, 1], None, np.inf),
+    ],
+)
+def test_feature_speed_of_a_curve(values, limit, speed):
+    assert feature_speed(np.arange(1.0, 5.0), np.array(values, float), limit) == pytest.approx(speed)
 
 
 def test_a_time_signal_is_amplitudes_of_its_engine_orders(read):
@@ -139,6 +156,10 @@ def test_a_time_signal_is_amplitudes_of_its_engine_orders(read):
     points = read(text, reading(speed_rad_s=1000.0))
     assert points.orders == (3, 7)
     np.testing.assert_allclose(points.values, [4e-4, 1e-4], rtol=1e-6)
+    # an amplitude from so many values
+    rows = zip(text.splitlines(), ["sigma_mm", *len(times) * ["0.2"]], strict=True)
+    deviations = read("\n".join(map(",".join, rows)), reading(speed_rad_s=1000.0)).deviations
+    np.testing.assert_allclose(deviations, 2e-4 * np.sqrt(2.0 / len(times)))
 
 
 def test_a_profile_is_turned_to_where_it_fits_and_says_when_it_is_backwards(read):
@@ -151,6 +172,13 @@ def test_a_profile_is_turned_to_where_it_fits_and_says_when_it_is_backwards(read
     assert remark == "turned by 50 degrees" or remark == "turned by 51 degrees"
     backwards = replace(points, angles=tuple(-np.array(points.angles) % (2.0 * np.pi)))
     assert "read backwards" in turned_profile(wear, backwards)[1]
+    # clearly better: by more than half, and by more than 9
+    middles = tuple((np.arange(4) + 0.5) * np.pi / 2.0)
+    for last, deviation, is_backwards in ((0.0, 0.47, True), (0.0, 0.48, False), (1.3, 0.1, True), (1.5, 0.1, False)):
+        four = Points.collected(np.ones(1), np.array([0.0, 3.0, 1.0, last]), np.full(4, deviation), angles=middles)
+        profile, remark = turned_profile(np.array([0.0, 1.0, 3.0, 0.0]), four)
+        assert profile == pytest.approx([1.0, 3.0, 0.0, 0.0]) and remark.startswith("turned by 90 degrees")
+        assert ("read backwards" in remark) == is_backwards
     # many points are means of a degree
     many = read("angle_deg,depth_um\n" + "".join(f"{a / 100},{a % 100}\n" for a in range(36_000)), WORN)
     assert len(many.values) == 360 and many.dropped == 35_640

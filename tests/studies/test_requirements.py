@@ -522,11 +522,38 @@ CASES = [
         **on_mesh_and_step(diverged_at(PEAK, *SPEEDS), PEAK),
     ),
     case(
-        "without stress nothing differs",
-        "meets | value 0, lowest 0, highest 0, from 1050, to 1050, scatter 0",
+        "a length ends with the range",
+        "meets | value 197.5, lowest 194.61, highest 200, from 1052.5, to 1250, scatter 1.4434",
+        Requirements(above_yield=300.0),
+        response(above(1055.0, 1300.0)),
+    ),
+    case(
+        "a peak between speeds",
+        "cannot tell | value 0.9, lowest 0.9, highest 0.9, from 1150, to 1150"
+        " | a peak between speeds, or one that drifts on, may come beyond the limit; the highest value is a lower bound",
         GOODMAN,
-        PEAK,
-        looks=dict.fromkeys((REST, HALF_STEP, COARSER_MESH), fatigued(everywhere(0.0))),
+        looks={REST: fatigued(at(1150.0, 0.9, 0.2))},
+    ),
+    case(
+        "a drift up to the limit",
+        "cannot tell | value 0.8, lowest 0.8, highest 1, from 1050, to 1050"
+        " | a peak between speeds, or one that drifts on, may come beyond the limit; the highest value is a lower bound",
+        GOODMAN,
+        looks={REST: fatigued(everywhere(0.8)).assign(stress_drift=("speed", at(1150.0, 0.25, 0.0)))},
+    ),
+    case(
+        "a peak at the limit",
+        "meets | value 1, lowest 1, highest 1, from 1150, to 1150",
+        GOODMAN,
+        looks={REST: fatigued(at(1150.0, 1.0, 0.95))},
+    ),
+    case(
+        "where nothing is stressed nothing differs",
+        "cannot tell | value 0.75, lowest 0.75, highest 0.75, from 1150, to 1150, scatter 0"
+        " | a peak between speeds, or one that drifts on, may come beyond the limit; the highest value is a lower bound",
+        GOODMAN,
+        looks=dict.fromkeys((HALF_STEP, COARSER_MESH), fatigued(everywhere(0.0)).sel(speed=[1100.0]))
+        | {REST: fatigued(at(1150.0, 0.75, 0.0))},
         error=np.nan,
     ),
     case(
