@@ -1,7 +1,6 @@
 """Further runs of a verdict: which are done, where, and that each is the run it claims to be."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -19,7 +18,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
 from r37studies.requirements import looks as further_runs
-from r37studies.requirements.choice import WIDTH, Requirements
+from r37studies.requirements.choice import Requirements
 from r37studies.requirements.evidence import HALF_FRICTION, Evidence, beyond_model
 from r37studies.requirements.judging import (
     DOWN,
@@ -71,13 +70,32 @@ def evidence(used=1e-5, speeds=(1290.0, 1305.0, 1320.0)):
     return Evidence(runs.assign(lined=1.0), operating=FLOWN, thickness=5e-3, clearance=3e-4)
 
 
+FAILED = evidence(used=4e-3, speeds=(1290.0, 1302.0, 1305.0, 1308.0, 1320.0))
+
+
+@pytest.fixture
+def asked(lined, monkeypatch):
+    """Speeds of each look, which nothing is run for: in all of them the lining is as good as unused."""
+    monkeypatch.setattr(
+        JudgedBlade, "runs_from_rest", lambda _, speeds, *of, **changes: evidence(speeds=sorted(speeds)).response
+    )
+    monkeypatch.setattr(JudgedBlade, "carried", lambda _, speeds: evidence(speeds=sorted(speeds)).response)
+    monkeypatch.setattr(further_runs, "MOST_NEAR", 1)
+
+    def speeds(of=FAILED, needs=NEEDS, blade=lined, **numbers):
+        for name, number in numbers.items():
+            monkeypatch.setattr(further_runs.judging, name, lambda _, of, number=number: number(of.speeds))
+        return {name: runs["speed"].values.tolist() for name, runs in looks_of(blade, needs, of)}
+
+    return speeds
+
+
 def test_what_is_run_where_nothing_fails(lined):
     found = dict(looks_of(lined, NEEDS, evidence()))
     assert tuple(found) == tuple(look for look in LOOKS if look != HALF_FRICTION)
     assert found[REST]["speed"].values.tolist() == [1300.0, 1302.5, 1305.0, 1307.5, 1310.0]
     for motion in (UP, DOWN):
         assert found[motion]["speed"].values.tolist() == [1300.0, 1305.0, 1310.0]
-    assert np.diff(found[REST]["speed"]).max() <= WIDTH
     # a file of them gives them back
     again = looks_in(joined_looks(found))
     for name, runs in found.items():
@@ -89,25 +107,18 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
     long = replace(CHOICE, revolutions=20, until_settled=True)
     # lobes rise as in the runs of the sweep
     rising = replace(LINED, casing=replace(LINED.casing, rise_revolutions=LINED.casing.rise_fraction * CHOICE.revolutions))
-    friction = rising.friction
-    assert friction is not None
-    expected = {
-        REST: (rising, long),
-        LOWEST_DAMPING: (replace(rising, damping_ratio=0.0), long),
-        HIGHEST_DAMPING: (replace(rising, damping_ratio=0.5), long),
-        MORE_FRICTION: (replace(rising, friction=replace(friction, coefficient=1.01 * friction.coefficient)), long),
-        LESS_FRICTION: (replace(rising, friction=replace(friction, coefficient=0.99 * friction.coefficient)), long),
-        SLIGHTLY_MORE_FRICTION: (replace(rising, friction=replace(friction, coefficient=1.001 * friction.coefficient)), long),
-        HALF_STEP: (rising, replace(long, time_step=0.5 * CHOICE.time_step)),
-        FAST_RISE: (replace(rising, casing=replace(rising.casing, rise_revolutions=0.6)), long),
-        SLOW_RISE: (replace(rising, casing=replace(rising.casing, rise_revolutions=12.0)), long),
-        SLOWEST_RISE: (
-            replace(rising, casing=replace(rising.casing, rise_revolutions=8.0)),
-            replace(long, until_settled=False),
-        ),
-    }
+    friction, damped, casing = rising.friction, (replace(rising, damping_ratio=ratio) for ratio in (0.0, 0.5)), rising.casing
+    factors = {MORE_FRICTION: 1.01, LESS_FRICTION: 0.99, SLIGHTLY_MORE_FRICTION: 1.001}
+    rises = {FAST_RISE: 0.6, SLOW_RISE: 12.0, SLOWEST_RISE: 8.0}
+    scenes = {REST: rising, HALF_STEP: rising} | dict(zip((LOWEST_DAMPING, HIGHEST_DAMPING), damped, strict=True))
+    for look, factor in factors.items():
+        scenes[look] = replace(rising, friction=replace(friction, coefficient=factor * friction.coefficient))
+    for look, revolutions in rises.items():
+        scenes[look] = replace(rising, casing=replace(casing, rise_revolutions=revolutions))
+    changes = {HALF_STEP: {"time_step": 0.5 * CHOICE.time_step}, SLOWEST_RISE: {"until_settled": False}}
     used = {}
-    for name, (scene, choice) in expected.items():
+    for name, scene in scenes.items():
+        choice = replace(long, **changes.get(name, {}))
         row = run_row(run_speed(contact, 1305.0, scene, choice, RESULTS, **KEPT), 1e9, UNKNOWN)
         used[name] = float(found[name]["used_thickness"].sel(speed=1305.0))
         assert used[name] == row["used_thickness"]
@@ -158,39 +169,26 @@ def test_a_motion_is_carried_on_in_a_new_lining(lined):
     assert float(alone["share_of_time_in_contact"][0]) == row["share_of_time_in_contact"]
 
 
-def test_a_short_run_fails_nothing_clearly(lined):
+def test_a_short_run_fails_nothing_clearly(asked, lined):
     short = replace(lined, choice=replace(CHOICE, revolutions=CHOICE.revolutions - 1))
-    assert tuple(dict(looks_of(short, NEEDS, evidence(used=4e-3))))
+    assert asked(blade=short)[UP] and UP not in asked()
 
 
-def test_other_friction_and_step_are_tried_closest_to_the_limit(lined, monkeypatch):
-    monkeypatch.setattr(further_runs, "MOST_NEAR", 1)
-    monkeypatch.setattr(further_runs.judging, "closeness", lambda _, of: -np.abs(of.speeds - 1302.5))
-    found = dict(looks_of(lined, NEEDS, evidence()))
-    assert all(found[name]["speed"].values.tolist() == [1302.5] for name in (MORE_FRICTION, LESS_FRICTION, HALF_STEP))
+def test_other_friction_and_step_are_tried_closest_to_the_limit(asked):
+    found = asked(evidence(), closeness=lambda speeds: -np.abs(speeds - 1302.5))
+    assert [found[name] for name in (MORE_FRICTION, LESS_FRICTION, HALF_STEP)] == 3 * [[1302.5]]
 
 
-def test_large_changes_are_tried_where_runs_fail_or_nearly_do(lined, monkeypatch):
+def test_large_changes_are_tried_where_runs_fail_or_nearly_do(asked):
     """All speeds that fail, or the worst where that still fails; else the nearest to the limit; nothing else of what fails."""
-    monkeypatch.setattr(further_runs, "MOST_NEAR", 1)
-    monkeypatch.setattr(further_runs.judging, "nearness", lambda _, of: 1.0 - 1e-3 * (of.speeds - 1305.5))
-    found = dict(looks_of(lined, NEEDS, evidence(used=4e-3, speeds=(1290.0, 1302.0, 1305.0, 1308.0, 1320.0))))
-    tried = {name: runs["speed"].values.tolist() for name, runs in found.items()}
-    assert tried == {name: [1302.0] for name in LARGE_CHANGES if name != SLOWEST_RISE}
+    found = asked(nearness=lambda speeds: 1.0 - 1e-3 * (speeds - 1305.5))
+    assert found == {name: [1302.0] for name in LARGE_CHANGES if name != SLOWEST_RISE}
     # the first that still fails ends it
-    monkeypatch.setattr(
-        further_runs.judging,
-        "nearness",
-        lambda _, of: 1.0 - 1e-3 * (of.speeds - 1308.5) - (of.speeds < 1304.0) * (len(of.speeds) == 1),
-    )
-    found = dict(looks_of(lined, NEEDS, evidence(used=4e-3, speeds=(1290.0, 1302.0, 1305.0, 1308.0, 1320.0))))
-    assert found[FAST_RISE]["speed"].values.tolist() == [1302.0, 1305.0]
+    found = asked(nearness=lambda speeds: 1.0 - 1e-3 * (speeds - 1308.5) - (speeds < 1304.0) * (len(speeds) == 1))
+    assert found[FAST_RISE] == [1302.0, 1305.0]
     # of what fails the slowest rise is not tried
-    monkeypatch.setattr(
-        further_runs.judging, "nearness", lambda _, of: (1.0 - 1e-3 * (of.speeds - 1302.5)) * (len(of.speeds) > 1)
-    )
-    found = dict(looks_of(lined, NEEDS, evidence()))
-    assert all(found[name]["speed"].values.tolist() == [1300.0, 1302.5] for name in LARGE_CHANGES if name in found)
+    found = asked(evidence(), nearness=lambda speeds: (1.0 - 1e-3 * (speeds - 1302.5)) * (len(speeds) > 1))
+    assert all(found[name] == [1300.0, 1302.5] for name in LARGE_CHANGES if name in found)
 
 
 def test_half_the_friction_is_tried_of_the_run_that_diverged_soonest(lined):
@@ -219,51 +217,52 @@ def test_half_the_friction_is_tried_of_the_run_that_diverged_soonest(lined):
     assert same.divergence == told
 
 
-def test_a_length_that_fails_is_tried_at_all_speeds(lined, monkeypatch):
+@pytest.mark.parametrize(
+    ("length", "of", "count"), [(0.0, evidence(), 1), (15.0, evidence(), 1), (0.0, FAILED, 1), (15.0, FAILED, 3)]
+)
+def test_a_length_that_fails_is_tried_at_all_speeds(asked, length, of, count):
     """A speed that stays above yield says nothing of the length."""
-    monkeypatch.setattr(further_runs.judging, "nearness", lambda _, of: np.full(len(of.speeds), 1.2))
-    monkeypatch.setattr(further_runs.judging, "fails_clearly", lambda *_: ["above_yield"])
-    needs = {length: Requirements(above_yield=length) for length in (0.0, 15.0)}
-    found = {length: dict(looks_of(lined, need, evidence())) for length, need in needs.items()}
-    assert {length: runs[FAST_RISE].sizes["speed"] for length, runs in found.items()} == {0.0: 1, 15.0: 1}
-    more = evidence(speeds=(1290.0, 1302.0, 1305.0, 1308.0, 1320.0))
-    found = {length: dict(looks_of(lined, need, more)) for length, need in needs.items()}
-    assert {length: runs[FAST_RISE].sizes["speed"] for length, runs in found.items()} == {0.0: 1, 15.0: 3}
+    numbers = {"nearness": lambda speeds: np.full(len(speeds), 1.2), "fails_clearly": lambda _: ["above_yield"]}
+    assert len(asked(of, Requirements(above_yield=length), **numbers)[FAST_RISE]) == count
 
 
-def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
+def test_nothing_more_is_run_of_what_fails(asked, monkeypatch):
     monkeypatch.setattr(further_runs, "_large_changes", lambda *_: iter(()))
-    assert dict(looks_of(lined, NEEDS, evidence(used=4e-3))) == {}
     quiet = evidence().response.assign(share_of_time_in_contact=("speed", np.zeros(3)))
-    assert dict(looks_of(lined, NEEDS, evidence().replaced(quiet))) == {}
+    assert asked() == asked(evidence().replaced(quiet)) == {}
     assert joined_looks({}).sizes == {"look": 0} and looks_in(joined_looks({})) == {}
     # also where the runs from rest show it
-    monkeypatch.setattr(further_runs.judging, "fails_clearly", lambda _, of: len(of.speeds) == 5)
-    assert tuple(dict(looks_of(lined, NEEDS, evidence()))) == (REST,)
+    assert tuple(asked(evidence(), fails_clearly=lambda speeds: len(speeds) == 5)) == (REST,)
 
 
-def test_without_friction_only_the_step_is_changed(contact, lined):
+def test_without_friction_only_the_step_is_changed(asked, lined):
     bare = replace(lined, scene=replace(DIRECT, friction=None), results=(), coarser=None)
-    few = replace(evidence(), operating=OperatingRange(1304.0, 1305.0))
-    assert tuple(dict(looks_of(bare, NEEDS, few))) == (REST, SLOW_RISE, SLOWEST_RISE, UP, DOWN, HALF_STEP)
+    assert tuple(asked(evidence(), blade=bare)) == (REST, SLOW_RISE, SLOWEST_RISE, UP, DOWN, HALF_STEP)
 
 
-def test_runs_stand_closer_about_a_peak_below_the_limit():
-    speeds, near = np.array([1000.0, 1002.5, 1005.0, 1007.5]), np.array([0.1, 0.8, 0.2, 0.6])
-    refined = partial(further_runs._speeds_about_peaks, error=0.03)
-    assert refined(speeds, near) == [1001.25, 1003.75]
-    # what fails and what lies far below are no peaks, nor is there anything between speeds that stand close
-    assert refined(speeds, np.array([0.1, 1.2, 0.2, 0.3])) == []
-    assert refined(np.array([1000.0, 1000.1]), np.array([0.9, 0.1])) == []
-    # a peak between two like speeds, and a top that is known to 3%
-    assert refined(speeds, np.array([0.2, 0.6, 0.61, 0.2])) == [1003.75, 1006.25]
-    assert refined(speeds, 0.6 - 1e-3 * (speeds - 1003.0) ** 2) == []
-    # peaks that are known as well as can be take no place of others
-    known = np.concatenate([1100.0 + 10.0 * count + np.array([-0.1, 0.0, 0.1]) for count in range(12)])
-    both = np.append(speeds, known), np.append([0.2, 0.6, 0.61, 0.2], np.tile([0.3, 0.9, 0.3], 12))
-    assert {1003.75, 1006.25} <= set(refined(*both))
-    # the end of a branch
-    assert refined(speeds, np.array([0.4, 0.5, 0.6, 0.1])) == [1003.75, 1006.25]
+SPEEDS, NEAR = 1000.0 + 2.5 * np.arange(4), np.array([0.2, 0.6, 0.61, 0.2])
+KNOWN = np.concatenate([1100.0 + 10.0 * count + np.array([-0.1, 0.0, 0.1]) for count in range(12)])
+
+
+@pytest.mark.parametrize(
+    ("speeds", "near", "expected"),
+    [
+        (SPEEDS, [0.1, 0.8, 0.2, 0.6], [1001.25, 1003.75]),
+        # what fails and what lies far below are no peaks, nor is there anything between speeds that stand close
+        (SPEEDS, [0.1, 1.2, 0.2, 0.3], []),
+        ([1000.0, 1000.1], [0.9, 0.1], []),
+        # a peak between two like speeds, and a top that is known to 3%
+        (SPEEDS, NEAR, [1003.75, 1006.25]),
+        (SPEEDS, 0.6 - 1e-3 * (SPEEDS - 1003.0) ** 2, []),
+        # the end of a branch
+        (SPEEDS, [0.4, 0.5, 0.6, 0.1], [1003.75, 1006.25]),
+        # peaks that are known as well as can be take no place of others; the gap before them may hide more
+        (np.append(SPEEDS, KNOWN), np.append(NEAR, np.tile([0.3, 0.9, 0.3], 12)), [1003.75, 1006.25]),
+    ],
+)
+def test_runs_stand_closer_about_a_peak_below_the_limit(speeds, near, expected):
+    refined = further_runs._speeds_about_peaks(np.array(speeds), np.array(near), 0.03)
+    assert [speed for speed in refined if speed < 1010.0] == expected
 
 
 def test_a_resonance_is_found_to_the_error_that_is_asked_for():

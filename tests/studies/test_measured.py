@@ -134,6 +134,7 @@ def test_feature_speed_a_limit_lies_anywhere_between_two_speeds(read):
     "values, limit, speed",
     [
         ([1, 1, 1, 1], 2.0, np.inf),
+        ([1, 2, 1, 1], 2.0, np.inf),
         ([3, 1, 1, 1], 2.0, 1.0),
         ([1, np.inf, 1, 1], 2.0, 2.0),
         ([1, 1, 2, 4], 3.0, 3.5),

@@ -223,6 +223,7 @@ CASES = [
         ABOVE,
         response(at(1100.0, 0.42, 0.0)),
     ),
+    case("nor are they outside", "meets | value 0, lowest 0, highest 0, scatter 0", ABOVE, response(at(1020.0, 0.42, 0.0))),
     case(
         "a length across the end",
         "fails"
