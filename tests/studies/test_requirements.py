@@ -1040,7 +1040,7 @@ def test_tables_and_figure_have_the_further_runs_that_the_verdict_has(lined, tmp
     assert response["speed"].values.tolist() == [*SPEEDS[:10:5], *SPEEDS[10:51], *SPEEDS[55::5]]
     xr.testing.assert_equal(response["rms_normal"].sel(speed=further["speed"]), further["rms_normal"])
     del files["campbell"]
-    params = {"runs": pairs, "errors": [0.0] * 3, "contacts": {}, "operating": to_plain(FLOWN)}
+    params = {"runs": pairs, "errors": [0.0] * 3, "contacts": {}, "added": {}, "operating": to_plain(FLOWN)}
     ranking(files, SimpleNamespace(table=tmp_path / "ranking.csv"), SimpleNamespace(**params))
     lengths = read_table(tmp_path / "ranking.csv").set_index("scene")["length_most_revolutions_operating_rad_s"]
     assert lengths["looked"] == judgement["value"] and lengths["other"] != lengths["looked"]

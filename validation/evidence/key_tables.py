@@ -16,7 +16,7 @@ from r37core.base.units import SUFFIXES
 from r37core.config.speed_section import UNITS
 from r37core.product.schemas import MODELS
 from r37core.product.targets import COLUMNS as DECLARED
-from r37core.results.columns import CHANCE, IN_REGION, OPERATING, column_named, names
+from r37core.results.columns import CHANCE, ENDS, IN_REGION, LENGTHS, OPERATING, Column, names
 from r37core.results.ranking import RANKED_BY
 from r37studies.designs.table import MEASURES
 from r37studies.second_motions.tables import RANGE_COLUMNS, RANGES
@@ -233,9 +233,24 @@ def column_rows() -> Iterator[tuple[str, str, str]]:
     declared = {"ranking.csv": DECLARED["ranking"], "designs.csv": designs, "second_motions.csv": RANGES}
     for file, columns in TABLES_OF_RESULTS.items():
         for name in columns:
-            column = column_named(name, (*declared.get(file, ()), *DECLARED["summary"], *DECLARED["ranking"]))
-            assert column is not None, f"{file}: {name} is not declared"
-            yield file, name, column.meaning
+            yield file, name, _meaning(name, (*declared.get(file, ()), *DECLARED["summary"], *DECLARED["ranking"]))
+
+
+def _meaning(name: str, columns: Iterable[Column]) -> str:
+    """Meaning of a column: one of `columns`, the scatter or range over members of one, a length in a region, a chance."""
+    for column in columns:
+        if name == column.name:
+            return column.meaning
+        if name == column.scatter_name:
+            return f"standard deviation by chance of: {column.meaning}"
+        if name in column.range_names:
+            quantile = ENDS[name.removeprefix(f"{column.name}_")]
+            return f"{'median' if quantile == 0.5 else f'{quantile:.0%}'} of the members: {column.meaning}"
+    others = {
+        IN_REGION.format("REGION"): f"{LENGTHS[0].meaning} in the region REGION",
+        f"{CHANCE}BLADE": "share of the members in which the blade is better than BLADE",
+    }
+    return others[name]
 
 
 def columns(input: Any, output: Any, params: Any) -> None:

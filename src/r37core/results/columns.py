@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from math import isnan
 
-from r37core.base.units import shown_unit, si_name, unit_of
+from r37core.base.units import si_name
 
 MOST_REVOLUTIONS, SOME_REVOLUTIONS = 0.5, 0.05
 """Shares of the revolutions above which a speed counts as above yield in most, and in some, revolutions."""
@@ -34,41 +34,20 @@ IN_REGION = "length_most_revolutions_{}_rad_s"
 
 @dataclass(frozen=True)
 class Column:
-    """Column of a table: its `name`, which ends with its SI unit, and its `meaning`; `words`: title that is not the name.
+    """Column of a table: its `name`, which ends with its SI unit, and its `meaning`.
 
-    `percent`: whether a share is shown in percent; `scatter`: whether its standard deviation by chance follows it.
+    `scatter`: whether its standard deviation by chance follows it.
     """
 
     name: str
     meaning: str
-    words: str = ""
-    percent: bool = False
     scatter: bool = False
-
-    @property
-    def title(self) -> str:
-        """Short name in words."""
-        return self.words or self.measure.replace("_", " ")
-
-    @property
-    def unit(self) -> str:
-        """Unit in which values are shown, empty for a plain number."""
-        return "%" if self.percent else shown_unit(unit_of(self.name))[0]
-
-    @property
-    def factor(self) -> float:
-        """Factor from the SI unit to the shown one."""
-        return 100.0 if self.percent else shown_unit(unit_of(self.name))[1]
-
-    @property
-    def measure(self) -> str:
-        """Name without its unit: the variable of datasets that hold the same number."""
-        return si_name(self.name)[0]
 
     @property
     def scatter_name(self) -> str:
         """Name of the column with the standard deviation by chance."""
-        return f"{self.measure}_scatter{self.name.removeprefix(self.measure)}"
+        measure, _ = si_name(self.name)
+        return f"{measure}_scatter{self.name.removeprefix(measure)}"
 
     @property
     def range_names(self) -> list[str]:
@@ -96,26 +75,21 @@ _MOST, _SOME = "above yield in most revolutions", "above yield in some revolutio
 _LOST = f"share of the amplitude lost within {DROP_WITHIN:g} rad/s above the peak"
 
 LENGTHS = (
-    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST),
-    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}", _SOME),
-    Column("length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", "ever above yield"),
+    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}"),
+    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}"),
+    Column("length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield"),
 )
 """How long a range of speeds is above yield (results.exceedance)."""
 
 DANGER = (
     *LENGTHS,
-    Column(
-        "share_of_revolutions_above_yield",
-        f"largest share, at any of the speeds, of the {_REVOLUTIONS} that exceed yield",
-        "revolutions above yield",
-        percent=True,
-    ),
-    Column("largest_median_stress_pa", f"largest median {_STRESS}", "median stress"),
-    Column("largest_high_stress_pa", f"largest 90% quantile {_STRESS}", "high stress"),
-    Column("largest_stress_pa", f"largest {_STRESS}", "largest stress"),
-    Column("largest_stress_over_yield", "largest stress over the yield stress", "times yield"),
-    Column("largest_stress_speed_rad_s", "speed of the largest stress", "at speed"),
-    Column("largest_goodman_share", "largest share of the Goodman line", "Goodman share"),
+    Column("share_of_revolutions_above_yield", f"largest share, at any of the speeds, of the {_REVOLUTIONS} that exceed yield"),
+    Column("largest_median_stress_pa", f"largest median {_STRESS}"),
+    Column("largest_high_stress_pa", f"largest 90% quantile {_STRESS}"),
+    Column("largest_stress_pa", f"largest {_STRESS}"),
+    Column("largest_stress_over_yield", "largest stress over the yield stress"),
+    Column("largest_stress_speed_rad_s", "speed of the largest stress"),
+    Column("largest_goodman_share", "largest share of the Goodman line"),
 )
 """How dangerous a range of speeds is, the same for interactions, blades, designs and members (results.danger)."""
 
@@ -125,24 +99,19 @@ INTERACTIONS = (
     Column("mode", "mode of the crossing that explains the peak, 1B, or combination of two, 7-5 or 5+7; empty without one"),
     Column("engine_order", "engine order that the mode, difference or sum crosses, or else the strongest one"),
     Column("direction", "direction of the peak: normal to the casing, tangential or both"),
-    Column("campbell_speed_rad_s", "speed of that crossing in the Campbell diagram", "Campbell speed"),
+    Column("campbell_speed_rad_s", "speed of that crossing in the Campbell diagram"),
     Column("peak_speed_rad_s", "speed at which the leading edge moves most"),
     Column("shift_rad_s", "peak speed minus Campbell speed"),
-    Column("peak_rms_normal_m", "rms normal to the casing at the peak speed", "normal rms"),
-    Column("peak_rms_tangential_m", "tangential rms at the peak speed", "tangential rms"),
-    Column("drop", _LOST, "amplitude lost above the peak", percent=True),
+    Column("peak_rms_normal_m", "rms normal to the casing at the peak speed"),
+    Column("peak_rms_tangential_m", "tangential rms at the peak speed"),
+    Column("drop", _LOST),
     *DANGER,
-    Column("max_von_mises_span", "span of the largest stress", "span"),
-    Column("max_von_mises_chord", "chord of the largest stress", "chord"),
-    Column("max_von_mises_side", "side of the largest stress", "side"),
+    Column("max_von_mises_span", "span of the largest stress"),
+    Column("max_von_mises_chord", "chord of the largest stress"),
+    Column("max_von_mises_side", "side of the largest stress"),
     Column("stress_region", "part of the blade where stress is evaluated"),
-    Column("max_wear_m", "largest wear of the lining", "largest wear"),
-    Column(
-        "worn_through_share",
-        "largest share of the circumference where the tip has reached the casing behind the lining",
-        "worn through",
-        percent=True,
-    ),
+    Column("max_wear_m", "largest wear of the lining"),
+    Column("worn_through_share", "largest share of the circumference where the tip has reached the casing behind the lining"),
     Column(
         "sufficient_thickness_m",
         "lining thickness that the interaction uses, elastic part included, where it wears; a lower bound where a run is worn "
@@ -153,17 +122,14 @@ INTERACTIONS = (
     Column(
         "motion_at_end",
         "at the peak speed: `growing`, `lasting`, `cut_free` (has decayed or lost contact) or `quiet` (within the clearance)",
-        "motion at the end",
     ),
-    Column(
-        "lasting_share", "share of the interaction's speeds whose motion lasts or grows at the end", "lasting", percent=True
-    ),
-    Column("some_revolutions_from_rad_s", f"lowest speed at which {_IN_SOME}", f"{_SOME} from", scatter=True),
-    Column("some_revolutions_to_rad_s", f"highest speed at which {_IN_SOME}", f"{_SOME} to", scatter=True),
-    Column("most_revolutions_from_rad_s", f"lowest speed at which {_IN_MOST}", f"{_MOST} from", scatter=True),
-    Column("most_revolutions_to_rad_s", f"highest speed at which {_IN_MOST}", f"{_MOST} to", scatter=True),
-    Column("peak_motion_m", "normal and tangential rms together, at the peak speed", "rms, both directions", scatter=True),
-    Column("fall_speed_rad_s", "speed above the peak at which the motion falls below half of it", "falls at", scatter=True),
+    Column("lasting_share", "share of the interaction's speeds whose motion lasts or grows at the end"),
+    Column("some_revolutions_from_rad_s", f"lowest speed at which {_IN_SOME}", scatter=True),
+    Column("some_revolutions_to_rad_s", f"highest speed at which {_IN_SOME}", scatter=True),
+    Column("most_revolutions_from_rad_s", f"lowest speed at which {_IN_MOST}", scatter=True),
+    Column("most_revolutions_to_rad_s", f"highest speed at which {_IN_MOST}", scatter=True),
+    Column("peak_motion_m", "normal and tangential rms together, at the peak speed", scatter=True),
+    Column("fall_speed_rad_s", "speed above the peak at which the motion falls below half of it", scatter=True),
     Column("note", "reason for empty columns, and where the lining is worn through"),
 )
 """Columns of summary.csv in their order.
@@ -178,58 +144,38 @@ ROBUSTNESS = (
     Column(
         "length_most_revolutions_within_rad_s",
         "by how much that length may be off: two standard deviations by chance and speeds, and the level's error",
-        "known within",
     ),
-    Column("length_some_revolutions_within_rad_s", "the same of the length in some revolutions", "known within"),
+    Column("length_some_revolutions_within_rad_s", "the same of the length in some revolutions"),
     Column(
-        "length_lasting_rad_s",
-        "length of all speeds above yield in most revolutions whose motion lasts or grows at the end",
-        f"{_MOST}, lasting",
+        "length_lasting_rad_s", "length of all speeds above yield in most revolutions whose motion lasts or grows at the end"
     ),
-    Column(
-        "exceedance_integral_rad_s",
-        f"integral over speed of the share of {_REVOLUTIONS} that exceed yield",
-        "integral above yield",
-        scatter=True,
-    ),
-    Column(
-        "length_goodman_rad_s",
-        "length of all speeds above the Goodman line in most revolutions",
-        "above the Goodman line in most revolutions",
-    ),
-    Column(
-        "goodman_integral_rad_s",
-        "integral over speed of the share of revolutions above the Goodman line",
-        "integral above the Goodman line",
-    ),
-    Column("first_most_revolutions_rad_s", f"lowest speed {_MOST}", f"first speed {_MOST}"),
-    Column("first_some_revolutions_rad_s", f"lowest speed {_SOME}", f"first speed {_SOME}"),
-    Column("widest_range_rad_s", "width of the widest range above yield in most revolutions", f"widest range {_MOST}"),
-    Column("widest_range_from_rad_s", "lowest speed of the widest range above yield", "widest range from"),
-    Column("ranges_most_revolutions", "number of ranges above yield in most revolutions", f"ranges {_MOST}"),
-    Column("largest_rms_m", "largest normal and tangential rms of the leading edge together", "largest rms, both directions"),
-    Column("largest_rms_speed_rad_s", "speed of the largest rms", "speed of the largest rms"),
-    Column("drop", _LOST, "amplitude lost above the peak", percent=True),
+    Column("exceedance_integral_rad_s", f"integral over speed of the share of {_REVOLUTIONS} that exceed yield", scatter=True),
+    Column("length_goodman_rad_s", "length of all speeds above the Goodman line in most revolutions"),
+    Column("goodman_integral_rad_s", "integral over speed of the share of revolutions above the Goodman line"),
+    Column("first_most_revolutions_rad_s", f"lowest speed {_MOST}"),
+    Column("first_some_revolutions_rad_s", f"lowest speed {_SOME}"),
+    Column("widest_range_rad_s", "width of the widest range above yield in most revolutions"),
+    Column("widest_range_from_rad_s", "lowest speed of the widest range above yield"),
+    Column("ranges_most_revolutions", "number of ranges above yield in most revolutions"),
+    Column("largest_rms_m", "largest normal and tangential rms of the leading edge together"),
+    Column("largest_rms_speed_rad_s", "speed of the largest rms"),
+    Column("drop", _LOST),
     Column("largest_gap_rad_s", "largest distance of neighbouring speeds: it can hide a narrower interaction"),
-    Column("diverged_runs", "diverged runs", "diverged"),
+    Column("diverged_runs", "diverged runs"),
 )
 """Measures of a response, the same for blades, designs and members."""
 
 OPERATING = (
-    Column("length_most_revolutions_operating_rad_s", "this length inside the operating range", f"{_MOST}, in operation"),
-    Column(
-        "length_most_revolutions_operating_within_rad_s", "by how much that length may be off", "in operation, known within"
-    ),
+    Column("length_most_revolutions_operating_rad_s", "this length inside the operating range"),
+    Column("length_most_revolutions_operating_within_rad_s", "by how much that length may be off"),
     Column(
         "exceedance_integral_operating_rad_s",
         "integral over the operating range of the share of later revolutions above yield, weighted by its dwells",
-        "integral above yield, in operation",
         scatter=True,
     ),
     Column(
         "goodman_integral_operating_rad_s",
         "integral over the operating range of the share of revolutions above the Goodman line, weighted by the dwells",
-        "integral above Goodman, in operation",
     ),
 )
 """Measures of a response inside the operating range."""
@@ -237,7 +183,7 @@ OPERATING = (
 OVER_SCENES = (
     Column("rank_over_scenes", "rank by the longest length in any scene; shared by what cannot be told apart"),
     Column("worst_rank", "worst rank of the blade in any scene"),
-    Column("length_over_scenes_rad_s", "sum of the lengths above yield over all scenes", f"{_MOST}, all scenes"),
+    Column("length_over_scenes_rad_s", "sum of the lengths above yield over all scenes"),
 )
 """Columns of ranking.csv that are the same in all scenes, where there are several."""
 
@@ -253,29 +199,6 @@ RANKING = (
     *ROBUSTNESS,
     Column("members", "members of the sample"),
     *OPERATING,
-    Column("rank_operating", "place by the integral over the operating range", "rank in operation"),
+    Column("rank_operating", "place by the integral over the operating range"),
 )
 """Columns of ranking.csv next to blade, scene, ranges over members and chances."""
-
-
-def column_named(name: str, columns: Iterable[Column]) -> Column | None:
-    """The column of this name: one of `columns`, the scatter or range over members of one, a chance; None for any other."""
-    if name.startswith(CHANCE):
-        other = name.removeprefix(CHANCE)
-        meaning = f"share of the members in which the blade is better than {other}"
-        return Column(name, meaning, f"chance to be better than {other}", percent=True)
-    before, after = IN_REGION.split("{}")
-    for column in columns:
-        if name == column.name:
-            return column
-        if name == column.scatter_name:
-            meaning = f"standard deviation by chance of: {column.meaning}"
-            return replace(column, words=f"{column.title}, scatter", meaning=meaning)
-        if name in column.range_names:
-            quantile = ENDS[name.removeprefix(f"{column.name}_")]
-            end = "median" if quantile == 0.5 else f"{quantile:.0%}"
-            return replace(column, words=f"{column.title}, {end}", meaning=f"{end} of the members: {column.meaning}")
-    if name.startswith(before) and name.endswith(after):
-        region = name.removeprefix(before).removesuffix(after)
-        return Column(name, f"length of all speeds at which {_IN_MOST} in the region {region}", f"{_MOST}, {region}")
-    return None

@@ -11,11 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.base.plain import from_plain
+from r37core.base.units import shown_unit, unit_of
 from r37core.figures import style
 from r37core.results.columns import LENGTHS, names
 
 from .compared import Compared, axis_of_key
-from .table import MEASURES, STRUCTURE
+from .table import STRUCTURE
 
 _ROBUSTNESS = (
     "shift_1b_rad_s", *names(LENGTHS), "largest_median_stress_pa", "largest_stress_pa", "largest_goodman_share"
@@ -23,6 +24,22 @@ _ROBUSTNESS = (
 _DRAWN = {"blade": (*names(STRUCTURE), *_ROBUSTNESS), "scene": (*_ROBUSTNESS, "exceedance_integral_rad_s", "largest_rms_m")}
 """Measures that a family of blades, or of scenes, is chosen by."""
 
+_TITLES = {
+    "mass_kg": "mass",
+    "frequency_1b_hz": "1B at rest",
+    "frequency_1t_hz": "1T at rest",
+    "clearance_loss_1b_m": "loss of clearance, 1B",
+    "clearance_loss_1t_m": "loss of clearance, 1T",
+    "shift_1b_rad_s": "shift of 1B",
+    "length_most_revolutions_rad_s": "above yield in most revolutions",
+    "length_some_revolutions_rad_s": "above yield in some revolutions",
+    "length_ever_rad_s": "ever above yield",
+    "largest_median_stress_pa": "median stress",
+    "largest_stress_pa": "largest stress",
+    "largest_goodman_share": "Goodman share",
+    "exceedance_integral_rad_s": "integral above yield",
+    "largest_rms_m": "largest rms, both directions",
+}
 _LABEL_WIDTH = 22
 """Letters in a line of an axis label."""
 
@@ -37,12 +54,11 @@ def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -
     drawn = _DRAWN[kind]
     count = len(drawn) // 3
     figure, grid = plt.subplots(count, 3, figsize=(style.PAGE, 2.1 * count + (0.9 if len(keys) > 1 else 0.1)), sharex=True)
-    measures = {column.name: column for column in MEASURES}
     for axes, measure in zip(grid.flat, drawn, strict=True):
-        column = measures[measure]
+        unit, factor = shown_unit(unit_of(measure))
         for name, rows in table.groupby(chosen.other, sort=False):
-            _draw(axes, rows.assign(**{measure: column.factor * rows[measure]}), measure, kind, keys, str(name))
-        axes.set_ylabel(f"{fill(column.title, _LABEL_WIDTH)}\n({column.unit})")
+            _draw(axes, rows.assign(**{measure: factor * rows[measure]}), measure, kind, keys, str(name))
+        axes.set_ylabel(f"{fill(_TITLES[measure], _LABEL_WIDTH)}\n({unit})")
     # what does not depend on the scene is the same line twice
     figure.legend(*style.legend_entries([grid.flat[-1]]), loc="outside lower center", ncols=4)
     for axes in grid[-1]:

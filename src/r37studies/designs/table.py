@@ -22,22 +22,14 @@ _NAMES = ("blade", "scene", "family")
 
 STRUCTURE = (
     Column("mass_kg", "mass of the blade"),
-    Column("frequency_1b_hz", "frequency of the first bending mode", "1B at rest"),
-    Column("frequency_1t_hz", "frequency of the first torsion mode", "1T at rest"),
-    Column(
-        "clearance_loss_1b_m", "largest loss of clearance as the tip swings along the free mode 1B", "loss of clearance, 1B"
-    ),
-    Column(
-        "clearance_loss_1t_m", "largest loss of clearance as the tip swings along the free mode 1T", "loss of clearance, 1T"
-    ),
+    Column("frequency_1b_hz", "frequency of the first bending mode"),
+    Column("frequency_1t_hz", "frequency of the first torsion mode"),
+    Column("clearance_loss_1b_m", "largest loss of clearance as the tip swings along the free mode 1B"),
+    Column("clearance_loss_1t_m", "largest loss of clearance as the tip swings along the free mode 1T"),
 )
 """Columns of designs.csv that do not depend on the scene."""
 
-MEASURES = (
-    *STRUCTURE,
-    Column("shift_1b_rad_s", "peak less crossing of the strongest interaction of 1B", "shift of 1B"),
-    *ROBUSTNESS,
-)
+MEASURES = (*STRUCTURE, Column("shift_1b_rad_s", "peak less crossing of the strongest interaction of 1B"), *ROBUSTNESS)
 """Columns of designs.csv next to those of names and of what varies; more of them, OPERATING, with an operating range."""
 
 

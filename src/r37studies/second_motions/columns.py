@@ -4,23 +4,18 @@ from r37core.results.columns import Column
 
 SECOND_MOTION = (
     Column("second_motion", "motion, carried `up` or `down`, that is most above that from rest"),
-    Column("second_motion_speed_rad_s", "speed of the second motion", "speed of the second motion"),
-    Column("second_motion_rms_normal_m", "normal rms of the second motion", "normal rms of the second motion"),
-    Column("second_motion_rest_rms_normal_m", "normal rms from rest at that speed", "normal rms from rest there"),
+    Column("second_motion_speed_rad_s", "speed of the second motion"),
+    Column("second_motion_rms_normal_m", "normal rms of the second motion"),
+    Column("second_motion_rest_rms_normal_m", "normal rms from rest at that speed"),
 )
 
 WORST_MOTION = (
-    Column(
-        "length_most_revolutions_rest_rad_s",
-        "length above yield in most revolutions from rest, at the speeds of sweeps",
-        "above yield in most revolutions, from rest",
-    ),
+    Column("length_most_revolutions_rest_rad_s", "length above yield in most revolutions from rest, at the speeds of sweeps"),
     Column(
         "length_most_revolutions_worst_rad_s",
         "length above yield in most revolutions by the worst motion up, down and from rest, or from rest alone if longer",
-        "above yield in most revolutions, worst motion",
     ),
-    Column("largest_rms_worst_m", "largest rms of the motions up, down and from rest", "largest rms, worst motion"),
+    Column("largest_rms_worst_m", "largest rms of the motions up, down and from rest"),
     Column("carried_revolutions", "revolutions of the motions up and down at each speed, by default those from rest"),
-    Column("rank_worst", "place by the worst motion", "rank by the worst motion"),
+    Column("rank_worst", "place by the worst motion"),
 )

@@ -13,7 +13,7 @@ RANGED = tuple(column for name in _WITH_RANGE for column in INTERACTIONS if colu
 """Columns of summary.csv to which a range over the members is added."""
 
 MEMBERS_SHOWING = (
-    Column("share_of_members", "share of the members that show the interaction", "members", percent=True),
+    Column("share_of_members", "share of the members that show the interaction"),
     Column("robust", "whether at least half of the members show it"),
 )
 """Columns that are added to summary.csv, before the ranges of RANGED."""
