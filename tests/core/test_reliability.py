@@ -172,7 +172,7 @@ def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, o
             fails()
 
     monkeypatch.setattr(recipe, "kept_file", fails)
-    structure = recipe.Recipe("Ref", "rom.steps.reduced_model", "reduced model", "a.nc")
+    structure = recipe.Recipe("Ref", "r37core.rom.steps.reduced_model", "reduced model", "a.nc")
     for write in (written, partial(structure.file, tmp_path, {})):
         with pytest.raises(outcome) as raised:
             write()
