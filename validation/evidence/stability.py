@@ -4,7 +4,7 @@ from typing import Any
 
 import pandas as pd
 
-from r37studies.trials.stability_tables import DEGRADED, DIVERGED, OUTCOMES
+from r37studies.trials.case_table import DEGRADED, DIVERGED, OUTCOMES
 
 from .tables import write_table
 

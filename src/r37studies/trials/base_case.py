@@ -1,33 +1,48 @@
-"""The case that those of a preset differ from, in which blade and scenes, and how one parameter of it is changed."""
+"""The cases of a preset: what is varied, one parameter at a time, in which blade and scenes, at which level and speeds."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
+from r37core.base.speeds import exact_text
 from r37core.base.varied_number import with_value
-from r37core.base.yaml_file import KeyPath
 from r37core.config import ConfigError, Settings, checked_scene, plain, scenes_named
 from r37core.config.cross_checks import engine_order_is_known
-from r37core.config.document import ConfigRefusals, Document
+from r37core.config.document import ConfigRefusals
 from r37core.config.fidelity import Level
-from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, left_out
+from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, left_out, refused
 from r37core.config.settings import contact_nodes
+from r37core.plans.extension import Extension
 from r37studies.other_models import OWN_MESH, ModelChoice
 
 from .case import Case
 
-Changes = Callable[[Any], dict[str, dict[str, Any]]]
-"""Changes by a value of a parameter: of fields of the `case`, its `choice` and `model`, and of keys of the `scene`'s entry."""
+Varied = Mapping[str, Mapping[str, Any]]
+"""Name of what is varied -> what it changes: first a key with the values of the cases, one each, then keys with one value.
+
+Keys: SPEEDS, LEVEL; those of a scene in scenes.yaml, as `scene.lining.bars`; fields of a `case`, its `choice` and its `model`.
+"""
+
+SPEEDS, LEVEL = "base.speeds", "base.level"
+"""Keys: speeds as shares of the crossing's, or the one that three lie about; fidelity level."""
 
 CLEARANCE, LOBES = "casing.clearance_m", "casing.amplitude_clearances"
 """Keys of a scene: the clearance, which is the cold one in a scene that has that, and the height of its lobes."""
 
 
-def put(part: str, name: str, also: Mapping[str, dict[str, Any]] | None = None) -> Changes:
-    """Changes that put a value at a name of a part, and others that do not depend on it."""
-    return lambda value: {part: {name: value}, **(also or {})}
+def some_of(varied: Collection[str]) -> Any:
+    """Type of a key that names some of what is varied, or all."""
+
+    def known(names: list[str] | str) -> list[str] | str:
+        for number, name in enumerate([] if names == "all" else names):
+            if name not in varied:
+                raise refused((number,), f"'{name}'", f"all, or some of {', '.join(varied)}")
+        return names
+
+    return Annotated[AllOrNames, AfterValidator(known)]
 
 
 class TrialsSection(Section):
@@ -52,76 +67,63 @@ class BaseCase:
     def _section(self) -> TrialsSection:
         return self.settings.section(self.declared)
 
-    @property
-    def blade(self) -> str | None:
-        """Blade of the cases, by default the first of the run; None where this run leaves it out."""
-        name = self._section.blade or self.settings.blade_names[0]
-        return name if name in self.settings.blade_names else None
+    def cases(
+        self, varied: Varied, chosen: Collection[str], results: Sequence[str], common: Mapping[str, Any]
+    ) -> dict[str, Case | str]:
+        """A case for each value of what is chosen in each scene that has it, such as a lining, called `what/value__scene`.
 
-    @property
-    def scenes(self) -> list[str]:
-        """Scenes of the cases, as far as they are run; none without the blade."""
-        chosen = scenes_named(self.settings, self._section.scenes) if self.blade else []
-        return [name for name in self.settings.scene_names if name in chosen]
-
-    @property
-    def level(self) -> str:
-        """Fidelity level of the cases."""
-        return self._section.base or self.settings.fidelity_name
-
-    def has(self, scene: str, changes: Mapping[str, dict[str, Any]]) -> bool:
-        """True where a scene has what is changed, such as a lining."""
-        entry = plain(self.settings.scene_designs.entries[scene])
-        return all(key.split(".")[0] in entry for key in changes.get("scene", {}) if "." in key)
-
-    def lacking(self, changes: Mapping[str, dict[str, Any]]) -> str:
-        """Reason why the blade, as its program gives it, cannot be changed so; empty where it can."""
-        assert self.blade is not None
-        blade, model = self.settings.blades[self.blade], changes.get("model", {})
-        # matrices have contact nodes, and no stress
-        if blade.is_matrices and (model or "snapshots_per_revolution" in changes.get("choice", {})):
-            return f"{self.blade} is given by matrices"
-        return f"{self.blade} is given by a mesh" if "nodes" in model and not blade.has_profiles else ""
-
-    def case(
-        self,
-        scene: str,
-        shares: Sequence[float],
-        results: Sequence[str],
-        changes: Mapping[str, dict[str, Any]],
-        level: str | None = None,
-    ) -> Case | str:
-        """The case in a scene with `changes`, at `shares` of the crossing's speed; or the reason why this run cannot have it.
-
-        `level`: in place of its own.
+        One that this run cannot have is the reason why; a run without the blade has none. `results`: as far as a scene has
+        them, and the energy; `common`: changes of all cases.
         """
-        settings, blade, entry = self.settings, self.blade, self.settings.levels[level or self.level]
-        if lacking := self.lacking(changes):
-            return lacking
+        settings, section, planned = self.settings, self._section, {}
+        blade = section.blade or settings.blade_names[0]
+        scenes = scenes_named(settings, section.scenes) if blade in settings.blade_names else []
+        for what in varied if chosen == "all" else chosen:
+            key, values = next(iter(varied[what].items()))
+            for value, scene in product(values, [name for name in settings.scene_names if name in scenes]):
+                entry, changes = plain(settings.scene_designs.entries[scene]), {**common, **varied[what], key: value}
+                if key.count(".") == 1 or key.split(".")[1] in entry:
+                    text = value if isinstance(value, str) else exact_text(value)
+                    kinds = [kind for kind in results if kind == "energy" or kind in settings.results_of(blade, scene)]
+                    planned[f"{what}/{text}__{scene}"] = self._case(blade, entry, kinds, changes)
+        return planned
+
+    def _case(self, blade: str, entry: dict[str, Any], results: Sequence[str], changes: Mapping[str, Any]) -> Case | str:
+        """The case in the scene of an entry with changes, or the reason why this run cannot have it."""
+        scene, case, choice, model = (
+            {key.removeprefix(part): value for key, value in changes.items() if key.startswith(part)}
+            for part in ("scene.", "case.", "choice.", "model.")
+        )
+        settings, chosen, speeds = self.settings, self.settings.blades[blade], changes[SPEEDS]
+        level = settings.levels[changes.get(LEVEL, self._section.base or settings.fidelity_name)]
+        # matrices have contact nodes, and no stress
+        if chosen.is_matrices and (model or "snapshots_per_revolution" in choice):
+            return f"{blade} is given by matrices"
+        if "nodes" in model and not chosen.has_profiles:
+            return f"{blade} is given by a mesh"
         try:
-            made = checked_scene(_changed(plain(settings.scene_designs.entries[scene]), changes.get("scene", {})))
+            made = checked_scene(_changed(entry, scene))
         except ConfigError as error:
             return str(error)
-        choice = replace(entry.time_integration.choice(made), **changes.get("choice", {}))
+        integration = replace(level.time_integration.choice(made), **choice)
         if "stress" not in results:
-            choice = replace(choice, snapshots_per_revolution=0)
-        elif choice.samples_per_revolution % choice.snapshots_per_revolution:
+            integration = replace(integration, snapshots_per_revolution=0)
+        elif integration.samples_per_revolution % integration.snapshots_per_revolution:
             return "stress is at samples of the motion alone"
-        assert blade is not None
-        case = Case(
-            blade,
-            self._model(blade, entry, changes.get("model", {})),
-            made,
-            choice.recorded,
-            tuple(shares),
-            tuple(results),
-            settings.blades[blade].material,
-            entry.time_integration.kept,
-            ("1B", self._section.engine_order),
+        return Case(
+            blade=blade,
+            model=self._model(blade, level, model),
+            scene=made,
+            choice=integration.recorded,
+            speeds=speeds if isinstance(speeds, tuple) else tuple(speeds * near for near in (0.997, 1.0, 1.003)),
+            results=tuple(results),
+            material=chosen.material,
+            kept=level.time_integration.kept,
+            crossing=("1B", self._section.engine_order),
+            **case,
         )
-        return replace(case, **changes.get("case", {}))
 
-    def _model(self, blade: str, level: Level, changes: dict[str, Any]) -> ModelChoice | str:
+    def _model(self, blade: str, level: Level, changes: Mapping[str, Any]) -> ModelChoice | str:
         """The model of a level: on the mesh of the run where that is given, the run's own where matrices are."""
         if self.settings.blades[blade].is_matrices:
             return self.settings.structure.boundary.tip_line
@@ -129,18 +131,14 @@ class BaseCase:
         boundary_nodes = contact_nodes(self.settings, blade, level.mesh.tip_elements)
         return replace(ModelChoice(nodes, boundary_nodes, level.reduction.fixed_interface_modes, "submesh"), **changes)
 
-    def check_names(self, levels: Iterable[str] = ()) -> None:
-        """ConfigError unless blade, scenes, base and `levels` are in their files, and the order in the Campbell diagram."""
+    def check_names(self) -> None:
+        """ConfigError unless blade, scenes and base are in their files, and the order in the Campbell diagram."""
         settings, section, refusals = self.settings, self._section, ConfigRefusals()
         documents, name = settings.documents, self.declared.name
-        named: list[tuple[KeyPath, Iterable[str | None], Iterable[str], Document]] = [
-            (("blade",), [section.blade], settings.designs.entries, documents.blades),
-            (("scenes",), [] if section.scenes == "all" else section.scenes, settings.scene_designs.names, documents.scenes),
-            (("base",), [section.base], settings.levels, documents.levels),
-            (("parameters", "level"), levels, settings.levels, documents.levels),
-        ]
-        for key, names, known, file in named:
-            refusals.of(documents.known, (name, *key), filter(None, names), known, file)
+        scenes = section.scenes if isinstance(section.scenes, list) else []
+        refusals.of(documents.known, (name, "blade"), filter(None, [section.blade]), settings.designs.entries, documents.blades)
+        refusals.of(documents.known, (name, "scenes"), scenes, settings.scene_designs.names, documents.scenes)
+        refusals.of(documents.known, (name, "base"), filter(None, [section.base]), settings.levels, documents.levels)
         if section.engine_order:
             refusals.of(engine_order_is_known, settings, (name, "engine_order"), section.engine_order)
         refusals.tell()
@@ -160,3 +158,16 @@ def _changed(entry: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
     for path, value in changes.items():
         entry = with_value(entry, cold if path == CLEARANCE else path, value)
     return entry
+
+
+def extension(section: ExtensionSection[Any], cases: Callable[[Settings], Mapping[str, Case | str]]) -> Extension:
+    """The extension of a preset, by its section: the table of its cases."""
+    name = section.name
+    return Extension(
+        name=name,
+        section=section,
+        checks=(lambda settings: BaseCase(settings, section).check_names(),),
+        targets=lambda sweep: {f"<results>/{name}.csv": [{}] if sweep.settings.made(cases) else []},
+        closing=f"r37studies.trials.case_table.closing_of_{name}",
+        made_on_request=True,
+    )

@@ -11,9 +11,6 @@ from r37studies.other_models import ModelChoice
 HALF_STEP = "__half_step"
 """End of the name of a case that is another one with half its time step."""
 
-LEVEL = "level"
-"""The parameter that changes everything at once: the fidelity level."""
-
 
 @dataclass(frozen=True)
 class Case:
@@ -22,9 +19,8 @@ class Case:
     - `model`: made for the case, or this run's own on the tip line of this name.
     - `speeds`: rad/s, ascending. With a `crossing` they are shares of its speed in the Campbell diagram of the run.
     - `crossing`: mode and engine order; without an order the one at the highest speed.
-    - `results`: as of a scene, and `instants`, the stress at each instant of the last revolution.
+    - `results`: as of a scene.
     - `kept`: how much of spectrum and wear, as run_speed takes it.
-    - `history_speeds`: speeds whose stress is kept for every revolution.
     - `share_of_limit`: the time step is this share of the blade's stability limit under central differences.
     - `half_step`: half the step that would be taken otherwise.
     """
@@ -38,10 +34,5 @@ class Case:
     material: Material | None
     kept: Mapping[str, int]
     crossing: tuple[str, int | None] | None = None
-    history_speeds: tuple[float, ...] = ()
     share_of_limit: float | None = None
     half_step: bool = False
-
-    def __post_init__(self) -> None:
-        if list(self.speeds) != sorted(set(self.speeds)):
-            raise ValueError(f"speeds of a case: found {self.speeds}; allowed: ascending, none twice")

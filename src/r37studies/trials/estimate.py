@@ -7,7 +7,7 @@ from pydantic import Field
 
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection, Section
-from r37core.plans.extension import Extension, Figure
+from r37core.plans.extension import Extension
 from r37core.plans.extent import Pair, extents
 from r37core.time_integration.speed_run import OF_RUNS
 
@@ -28,6 +28,8 @@ class EstimateSection(Section):
 
 SECTION = ExtensionSection("estimate", EstimateSection, EstimateSection())
 
+TABLE = "r37studies.trials.estimate_tables.table"
+
 
 def cases(settings: Settings) -> dict[str, Case | str]:
     """A case for each blade and scene."""
@@ -37,18 +39,16 @@ def cases(settings: Settings) -> dict[str, Case | str]:
 def _case(settings: Settings, blade: str, scene: str) -> Case:
     chosen, every = settings.scenes[scene], settings.section(SECTION).every
     certain = settings.speed_plans[blade, scene].certain
-    # each from the middle of the part that it stands for
-    speeds = certain[min(every // 2, len(certain) - 1) :: every]
+    # each speed from the middle of the part that it stands for
     return Case(
         blade,
         chosen.tip_line,
         chosen.scene,
         settings.integration_choice(blade, scene, 0.0),
-        speeds,
+        certain[min(every // 2, len(certain) - 1) :: every],
         results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
         material=settings.blades[blade].material,
         kept=settings.fidelity.time_integration.kept,
-        history_speeds=tuple(speed for speed in speeds if speed in chosen.stress_history_speeds),
     )
 
 
@@ -62,22 +62,10 @@ def values(settings: Settings, members: Mapping[Pair, int]) -> dict[str, Any]:
     }
 
 
-TABLES = {"table": "<results>/estimate.csv"}
-
 EXTENSION = Extension(
     name="estimate",
     section=SECTION,
-    targets=lambda _: {TABLES["table"]: [{}]},
-    figures=(
-        Figure(
-            rule="estimate_figure",
-            name="estimate",
-            draw="r37studies.trials.figures.draw_estimate",
-            files=TABLES,
-            label="cost of the sweep",
-            caption="Core hours of the whole sweep, projected from a sample of its runs, by what they are spent on.",
-        ),
-    ),
+    targets=lambda _: {"<results>/estimate.csv": [{}]},
     closing="r37studies.trials.estimate_tables.closing",
     made_on_request=True,
 )

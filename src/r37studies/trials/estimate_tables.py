@@ -5,8 +5,8 @@ import statistics
 import subprocess
 import sys
 from collections.abc import Mapping
+from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 import xarray as xr
@@ -14,51 +14,40 @@ import xarray as xr
 from r37core.results.closing import counted
 from r37core.results.table_file import read_table
 
-from .case_table import case_table
-
-
-def tables(responses: Mapping[str, xr.Dataset], **values: Any) -> dict[str, pd.DataFrame]:
-    """The projected cost; `values` as of estimate.values."""
-    return {"table": projected_costs(case_table(responses, numbers), start_up=time_start_up(), **values)}
-
-
 _IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
 """Imports of the script of a simulation."""
 
 
-def numbers(response: xr.Dataset) -> dict[str, float]:
-    """CPU seconds of a run of a case, with everything a job does after its imports, and of its share of the reduction."""
-    runs, costs = response.sizes["speed"], response.attrs
-    own = float((response["cpu_s"] + response["file_cpu_s"]).sum()) / runs
-    return {"run_cpu_s": own + costs["reading_cpu_s"], "run_reduction_cpu_s": costs["reduction_cpu_s"] / runs}
-
-
 def time_start_up() -> float:
     """CPU seconds of an interpreter that does the imports of a job and ends: the median of three."""
-    spent = []
+    spent = [_cpu_of_children()]
     for _ in range(3):
-        before = os.times()
         subprocess.run([sys.executable, "-c", _IMPORTS], check=True)
-        after = os.times()
-        spent.append(after.children_user + after.children_system - before.children_user - before.children_system)
-    return statistics.median(spent)
+        spent.append(_cpu_of_children())
+    return statistics.median(after - before for before, after in pairwise(spent))
 
 
-def projected_costs(
-    cases: pd.DataFrame, runs: Mapping[str, int], start_up: float, workflow_per_job: float, cores: int
-) -> pd.DataFrame:
+def _cpu_of_children() -> float:
+    times = os.times()
+    return times.children_user + times.children_system
+
+
+def table(responses: Mapping[str, xr.Dataset], runs: Mapping[str, int], workflow_per_job: float, cores: int) -> pd.DataFrame:
     """A row for each part and one of all: core hours, core seconds of a simulation, simulations, and hours on `cores`.
 
-    `cases`: the table of cases; `runs`: number of simulations that each stands for. Raises ValueError for a refused case.
+    `responses`: of cases, with their costs as attributes; `runs`: number of simulations that each stands for. Raises ValueError
+    for a refused case.
     """
-    for reason in filter(None, cases["refused"]):
+    costs = pd.DataFrame([response.attrs for response in responses.values()], list(responses))
+    for reason in costs["refused"].dropna() if "refused" in costs else ():
         raise ValueError(f"estimate: {reason}")
-    number = pd.Series(runs)[cases.index]
+    number = pd.Series(runs)[costs.index]
     seconds = {
-        "time integration": (number * cases["run_cpu_s"]).sum(),
-        "start-up": start_up * number.sum(),
+        # with everything that a job does after its imports
+        "time integration": (number * costs[["cpu_s", "file_cpu_s", "reading_cpu_s"]].sum(axis=1)).sum(),
+        "start-up": time_start_up() * number.sum(),
         "workflow": workflow_per_job * number.sum(),
-        "reduction": (cases["recovery_cpu_s"] + number * cases["run_reduction_cpu_s"]).sum(),
+        "reduction": (costs["recovery_cpu_s"] + number * costs["reduction_cpu_s"]).sum(),
     }
     seconds["total"] = sum(seconds.values())
     return pd.DataFrame(

@@ -4,10 +4,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from r37core.base.plain import to_plain
-from r37core.config import Settings
+from r37core.config import Settings, plain
 from r37core.plans import paths
 from r37core.rom.region_choice import EVERYWHERE
-from r37studies.other_models import MODEL_FILES, OWN_MESH, ModelChoice
+from r37studies.other_models import MODEL_FILES, OWN_MESH, ModelChoice, tip_elements
 
 from . import estimate, stability, tradeoff
 from .case import Case
@@ -16,13 +16,14 @@ PRESETS = {each.EXTENSION.name: each for each in (estimate, tradeoff, stability)
 """Command -> its module, in the order of their sections in docs/configuration.md.
 
 It has `cases`, a function of the settings that gives each case by its name, or the reason why this run cannot have it; and
-`TABLES`, files that the function `tables` of the module `{command}_tables` makes of the responses and of `values`, a function
-of the settings and of the largest number of simulations of members by blade and scene.
+`TABLE`, a function that makes the table of the responses and of `values`, a function of the settings and of the largest number
+of simulations of members by blade and scene.
 """
 
 EXTENSIONS = tuple(preset.EXTENSION for preset in PRESETS.values())
 
 RESPONSE = "<results>/{preset}/{case}.nc"
+TABLE = "<results>/{preset}.csv"
 
 
 @dataclass(frozen=True)
@@ -35,14 +36,14 @@ class Trials:
         """Cases of a preset by name, or reasons why this run cannot have them."""
         return self.settings.made(PRESETS[preset].cases)
 
-    def files(self, preset: str, wildcards: Any) -> list[str]:
-        """Responses of all cases that are run."""
-        run = [name for name, case in self.cases(preset).items() if isinstance(case, Case)]
-        return [paths.fill(RESPONSE, preset=preset, case=name) for name in run]
+    def files(self, wildcards: Any) -> list[str]:
+        """Responses of all cases of a preset that are run."""
+        reasons = self.reasons(wildcards)
+        return [paths.fill(RESPONSE, preset=wildcards.preset, case=name) for name, why in reasons.items() if not why]
 
-    def reasons(self, preset: str, wildcards: Any) -> dict[str, str]:
+    def reasons(self, wildcards: Any) -> dict[str, str]:
         """Case -> reason why this run cannot have it; empty for one that is run."""
-        return {name: case if isinstance(case, str) else "" for name, case in self.cases(preset).items()}
+        return {name: case if isinstance(case, str) else "" for name, case in self.cases(wildcards.preset).items()}
 
     def case(self, wildcards: Any) -> Case:
         """The case of these wildcards."""
@@ -69,11 +70,19 @@ class Trials:
         return {"mesh" if own else "geometry": paths.fill(paths.MESH if own else paths.GEOMETRY, blade=wildcards.blade)}
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
-        """Parameters of a model: those of the run but for its choice."""
+        """Parameters of a model that are others than those of the run."""
         choice, settings, blade = ModelChoice.named(wildcards.model), self.settings, wildcards.blade
+        boundary = settings.boundary_choice(blade)
         parts = {
-            "boundary": replace(settings.boundary_choice(blade), nodes=choice.boundary_nodes or None),
+            "mesh": {
+                **plain(settings.fidelity.mesh),
+                "nodes": choice.nodes,
+                "layers": 1,
+                "tip_elements": tip_elements(choice.nodes),
+            },
+            "boundary": replace(boundary, nodes=choice.boundary_nodes or None),
             "reduction": replace(settings.reduction_choice(blade), fixed_interface_modes=choice.fixed_interface_modes),
             "stress_regions": {"whole": EVERYWHERE} if choice.stress_region == "whole" else settings.stress_regions(blade),
+            "tip_line": boundary.tip_line,
         }
-        return {"nodes": choice.nodes, **to_plain(parts)}
+        return to_plain(parts)

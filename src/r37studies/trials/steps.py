@@ -1,75 +1,57 @@
 """Steps of the workflow (docs/architecture.md): models of cases, the cases, and the tables of a preset."""
 
-import shutil
 from dataclasses import replace
-from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from r37core.base.dataset_file import read_dataset, write_dataset
-from r37core.base.io import as_list, function_named, read_json, write_json, write_text
+from r37core.base.io import Named, as_list, function_named, read_json, write_json, write_text
 from r37core.base.plain import from_plain
-from r37core.blade.geometry_file import read_geometry
-from r37core.fem.material import Material
-from r37core.fem.matrices import assemble
-from r37core.machine_code.kept import content_digest
-from r37core.mesh.generate import generate_mesh
-from r37core.mesh.mesh_files import read_vtu
+from r37core.fem.steps import mesh as mesh_blade
 from r37core.results.table_file import write_table
-from r37core.rom.contact_model import read_contact_model, write_contact_model
-from r37core.rom.reduce import reduce_blade
-from r37core.rom.reduced_model import ReducedModel, contact_model
-from r37core.rom.reduction_choice import BoundaryChoice, BoundaryError, ReductionChoice
-from r37core.rom.region_choice import RegionChoice
-from r37core.rom.rom_file import read_reduced_model, write_reduced_model
+from r37core.rom.contact_model import read_contact_model
+from r37core.rom.reduction_choice import BoundaryError
+from r37core.rom.rom_file import read_reduced_model
+from r37core.rom.steps import contact_model, reduced_model
 from r37core.stress.recovery import stress_operators
-from r37core.sweep.parts import Parts
-from r37studies.other_models import tip_elements
 
 from .case import Case
 from .case_table import refusal
-from .runner import peak_memory, run_case, timed
+from .runner import run_case, timed
 
 
 def model(input: Any, output: Any, params: Any) -> None:
     """Mesh, assemble and reduce for some cases. Input: geometry or mesh. Outputs: rom, contact, cost.
 
-    The cost has CPU and wall time (s) and memory (bytes), or the reason why the mesh cannot have the boundary nodes: the other
-    files are empty then. Params: choice (nodes of a mesh that is generated, boundary, reduction, stress_regions), material,
-    provenance.
+    The cost has CPU time (s), or the reason why the mesh cannot have the boundary nodes: the other files are
+    empty then. Params: those of the reduced model (r37core.plans.stages); choice, in place of some, with mesh and tip_line.
     """
-    choice, material = params.choice, from_plain(Material, params.material)
-    boundary = from_plain(BoundaryChoice, choice["boundary"])
-    reduction = from_plain(ReductionChoice, choice["reduction"])
-    regions = from_plain(dict[str, RegionChoice], choice["stress_regions"])
+    values = Named(**{**dict(params.items()), **params.choice})
 
-    def reduced_model() -> ReducedModel:
-        if hasattr(input, "mesh"):
-            mesh = read_vtu(input.mesh)
-        else:
-            nodes = choice["nodes"]
-            mesh = generate_mesh(read_geometry(input.geometry), nodes, layers=1, tip_elements=tip_elements(nodes))
-        return reduce_blade(mesh, assemble(mesh, material), material, boundary, reduction, regions)
+    def make() -> None:
+        with TemporaryDirectory() as folder:
+            mesh = getattr(input, "mesh", f"{folder}/mesh.vtu")
+            if hasattr(input, "geometry"):
+                mesh_blade(input, Named(msh=f"{folder}/mesh.msh", vtu=mesh), values)
+            reduced_model(Named(mesh=mesh), output, values)
+            contact_model(output, output, values)
 
     try:
-        reduced, cpu, wall = timed(reduced_model)
+        _, cpu = timed(make)
+        write_json({"cpu_s": cpu}, output.cost)
     except BoundaryError as error:
         write_json({"refused": str(error)}, output.cost)
         for file in (output.rom, output.contact):
             write_text("", file)
-        return
-    write_json({"cpu_s": cpu, "wall_s": wall, "peak_memory_bytes": peak_memory()}, output.cost)
-    write_reduced_model(reduced, output.rom, params.provenance)
-    write_contact_model(contact_model(reduced, boundary.tip_line), output.contact)
 
 
 def run(input: Any, output: Any, params: Any) -> None:
     """Run one case. Inputs: contact; rom for the stress, cost of the model, campbell for the speeds. Params: case.
 
-    Output: response (nc). Raises ValueError for a crossing that the Campbell diagram does not have. A case that was interrupted
-    goes on.
+    Output: response (nc). Raises ValueError for a crossing that the Campbell diagram does not have.
     """
     case, files = from_plain(Case, params.case), dict(input.items())
     costs = {f"model_{name}": value for name, value in (read_json(files["cost"]) if "cost" in files else {}).items()}
@@ -79,15 +61,12 @@ def run(input: Any, output: Any, params: Any) -> None:
     if case.crossing:
         speed = crossing_speed(read_dataset(files["campbell"]), case)
         case = replace(case, speeds=tuple(float(share * speed) for share in case.speeds))
-    read, costs["reading_cpu_s"], _ = timed(lambda: read_contact_model(files["contact"]))
+    read, costs["reading_cpu_s"] = timed(lambda: read_contact_model(files["contact"]))
     material = case.material if "stress" in case.results else None
-    operators, costs["recovery_cpu_s"], _ = timed(
+    operators, costs["recovery_cpu_s"] = timed(
         lambda: stress_operators(read_reduced_model(files["rom"]), material) if material else None
     )
-    made_of = [params.code, *(content_digest(files[name]) for name in ("contact", "rom") if name in files)]
-    parts = Parts(Path(output.response).with_suffix(".parts"), made_of)
-    write_dataset(run_case(case, read, operators, parts), output.response, {"blade": case.blade, **costs})
-    shutil.rmtree(parts.folder, ignore_errors=True)
+    write_dataset(run_case(case, read, operators), output.response, {"blade": case.blade, **costs})
 
 
 def crossing_speed(campbell: xr.Dataset, case: Case) -> float:
@@ -113,15 +92,10 @@ def crossing_speed(campbell: xr.Dataset, case: Case) -> float:
 
 
 def report(input: Any, output: Any, params: Any) -> None:
-    """Tabulate the cases of a preset. Inputs: cases, the responses of those that were run. Outputs: TABLES of the preset.
+    """Tabulate the cases of a preset. Inputs: cases, the responses of those that were run. Output: table (csv).
 
-    Params: module and values of the tables, see PRESETS; reasons, of all cases, as of Trials.
+    Params: table, the function that makes it, and its values, see PRESETS; reasons, of all cases, as of Trials.
     """
     files = iter(as_list(input.cases))
     responses = {name: refusal(why) if why else read_dataset(next(files)) for name, why in params.reasons.items()}
-    made = function_named(f"{params.module}.tables")(responses, **params.values)
-    for name, file in output.items():
-        if file.endswith(".csv"):
-            write_table(made[name], file, digits=6)
-        else:
-            write_dataset(made[name], file)
+    write_table(function_named(f"{params.table}")(responses, **params.values), output.table, digits=6)

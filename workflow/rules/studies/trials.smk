@@ -1,7 +1,7 @@
 # Single runs next to the sweep, and their tables. Not part of all_blades: snakemake tradeoff, stability or estimate
 from r37core.product.extensions import simulations_of_members
 from r37studies.other_models import MODEL_FILES, MODEL_NAME
-from r37studies.trials.plan import PRESETS, RESPONSE, Trials
+from r37studies.trials.plan import PRESETS, RESPONSE, TABLE, Trials
 
 trials = Trials(settings)
 
@@ -32,32 +32,22 @@ use rule step as trial_model with:
         model=MODEL_NAME,
     priority: 2
     params:
+        **{**stages["reduced_model"].params, "kept": False},
         **step("r37studies.trials.steps.model"),
         choice=trials.reduction,
-        material=sweep.material,
-        provenance=sweep.structure_provenance,
 
 
-for name, preset in PRESETS.items():
-
-    # a variant of `step` cannot be named by a variable
-    rule:
-        name:
-            f"{name}_tables"
-        input:
-            cases=partial(trials.files, name),
-        output:
-            **preset.TABLES,
-        log:
-            f"<logs>/{name}_tables.log",
-        conda:
-            ENVIRONMENT
-        resources:
-            mem_mb=500,
-        params:
-            **step("r37studies.trials.steps.report", f"r37studies.trials.{name}_tables"),
-            module=f"r37studies.trials.{name}_tables",
-            reasons=partial(trials.reasons, name),
-            values=lambda wildcards, preset=preset: preset.values(settings, simulations_of_members(settings)),
-        script:
-            str(SCRIPTS / "step.py")
+use rule step as trials_table with:
+    input:
+        cases=trials.files,
+    output:
+        table=TABLE,
+    log:
+        "<logs>/{preset}.log",
+    wildcard_constraints:
+        preset="|".join(PRESETS),
+    params:
+        **step("r37studies.trials.steps.report", *(preset.TABLE.rpartition(".")[0] for preset in PRESETS.values())),
+        reasons=trials.reasons,
+        table=lambda wildcards: PRESETS[wildcards.preset].TABLE,
+        values=lambda wildcards: PRESETS[wildcards.preset].values(settings, simulations_of_members(settings)),
