@@ -127,16 +127,12 @@ def chosen(kind: type[C], choice: C | str, base: Configuration) -> C:
 
 
 def several(value: Any, kind: type[Choice]) -> list[Any] | None:
-    """One blade or scene, or several of them, as a list; None as it is. Raises ConfigError for others and for an empty list."""
-    if value is None or isinstance(value, kind | str):
-        return None if value is None else [value]
-    name = kind.kind
-    if isinstance(value, bytes | type) or not isinstance(value, Iterable):
-        allowed = f"the name of a {name}, or what r37.{name} gives, or a list of them"
-        raise ConfigError(f"{name}s: found {single_line(repr(value))}; allowed: {allowed}")
-    choices = list(value)
+    """One blade or scene, or several of them, as a list; None as it is. Raises ConfigError for an empty list."""
+    if value is None:
+        return None
+    choices = [value] if isinstance(value, kind | str) or not isinstance(value, Iterable) else list(value)
     if not choices:
-        raise ConfigError(f"{name}s: found none; allowed: at least one")
+        raise ConfigError(f"{kind.kind}s: found none; allowed: at least one")
     return choices
 
 

@@ -44,7 +44,8 @@ def run(
         r37.run("Ref", "abradable", speeds, tolerances={"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}})
         r37.run("Ref", "abradable", speeds, search={"blade": "Ref", "variables": {...}, "objectives": {...}}).best_values()
         r37.run(r37.blade("S100", name="Sweep", vary={"sweep_percent": [50, 100]}), "abradable", speeds).tables["designs"]
-        r37.run("Ref", r37.scene("abradable", name="all", rotor={"blades": 36}, results=["stress"]), speeds).rotor("Ref", "all")
+        wheel = r37.scene("abradable", name="wheel", rotor={"blades": 36}, results=["stress"])
+        r37.run("Ref", wheel, speeds).rotor("Ref", "wheel")
         r37.run("Ref", "abradable", run_ups={"up": {...}}, targets="results/run_ups.nc")["run_ups"]
         points = {"blade": "Ref", "scene": "abradable", "file": table, "quantity": "displacement_tangential"}
         r37.run("Ref", "abradable", measured=[points], targets="measured_table").tables["measured"]
