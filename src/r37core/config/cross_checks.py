@@ -119,9 +119,8 @@ def _most_nodes(settings: Settings) -> int:
 
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
-    blades = [name for name, blade in settings.blades.items() if blade.is_matrices]
-    if blades and settings.structure.spin_softening:
-        value = f"true with the blade '{blades[0]}', given by matrices"
+    if settings.matrices and settings.structure.spin_softening:
+        value = f"true with the blade '{settings.matrices[0]}', given by matrices"
         allowed = "false; put the term into its K_<speed>"
         raise settings.documents.config.refusal(("structure", "spin_softening"), value, allowed)
 
@@ -130,7 +129,7 @@ def kinematics_can_be_had(settings: Settings) -> None:
     """Large displacements are wanted of blades with a mesh, and those of second order with what carries them."""
     structure, key, document = settings.structure, ("structure", "kinematics"), settings.documents.config
     wanted = {name: settings.kinematics_of(name) for name in settings.blades}
-    matrices = [name for name, blade in settings.blades.items() if blade.is_matrices and wanted[name] != LINEAR]
+    matrices = [name for name in settings.matrices if wanted[name] != LINEAR]
     if matrices:
         origin = f"the blade '{matrices[0]}', given by matrices, which say nothing of large displacements"
         raise document.refusal(key, f"{wanted[matrices[0]]} with {origin}", f"{LINEAR}, or the blade's mesh")
@@ -170,27 +169,21 @@ def _exact_level(settings: Settings) -> str:
     return f"a level of {EXACT_MODAL}" + (f" ({', '.join(others)})" if others else "")
 
 
-def rotors_press_a_casing_that_is_carried(settings: Settings) -> None:
-    """All blades press an elastic casing with the integrator whose forces are those at t_n."""
-    integrator = settings.fidelity.time_integration.integrator
+def rotors_can_be_run(settings: Settings) -> None:
+    """All blades press an elastic casing with the integrator whose forces are those at t_n, and their runs end together."""
+    integrator, documents = settings.fidelity.time_integration.integrator, settings.documents
     for name, chosen in settings.scenes.items():
         if chosen.scene.rotor is not None and chosen.scene.casing.ring and integrator != EXACT_MODAL:
             value = f"a rotor in an elastic casing at the level '{settings.fidelity_name}', whose integrator is {integrator}"
-            raise settings.documents.scenes.refusal((name, "rotor"), value, _exact_level(settings))
-
-
-def rotors_end_together(settings: Settings) -> None:
-    """No level lets the runs of a rotor end as they have settled."""
-    for name, chosen in settings.scenes.items():
+            raise documents.scenes.refusal((name, "rotor"), value, _exact_level(settings))
         if chosen.scene.rotor is not None and chosen.until_settled:
             path = (settings.fidelity_name, "time_integration", "until")
-            raise settings.documents.levels.refusal(path, f"settled with the rotor of '{name}'", NO_ROTOR)
+            raise documents.levels.refusal(path, f"settled with the rotor of '{name}'", NO_ROTOR)
 
 
 def clearances_reach_all_speeds(settings: Settings) -> None:
     """The growth of a casing is given up to the highest speed; the blades' own follows from their mesh."""
-    document = settings.documents.scenes
-    matrices = [name for name, blade in settings.blades.items() if blade.is_matrices]
+    document, matrices = settings.documents.scenes, settings.matrices
     for name, chosen in settings.scenes.items():
         casing, path = chosen.scene.casing, (name, "casing", "clearance")
         modelled, run = settings.structure.maximum_speed_rad_s, fastest_of(settings, name)
@@ -213,8 +206,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     matrices_hold_their_terms,
     kinematics_can_be_had,
     tips_have_room_for_patches,
-    rotors_press_a_casing_that_is_carried,
-    rotors_end_together,
+    rotors_can_be_run,
     clearances_reach_all_speeds,
 )
 """Checks in the order in which their refusals are reported."""

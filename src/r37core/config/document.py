@@ -139,13 +139,12 @@ def command_line_document(values: Mapping[str, Any], name: str = "--config") -> 
 
     Raises ConfigError for a key that no file can have.
     """
-    content = _converted_texts(dict(values), name)
     locations: dict[KeyPath, str] = {}
-    _mark(content, (), name, locations)
-    return Document(name, content, locations)
+    return Document(name, _converted_texts(dict(values), name, (), locations), locations)
 
 
-def _converted_texts(value: Any, name: str) -> Any:
+def _converted_texts(value: Any, name: str, path: KeyPath, locations: dict[KeyPath, str]) -> Any:
+    """A value and all in it with texts and keys as a file has them; puts the paths of its keys into `locations`."""
     if isinstance(value, Mapping):
         content: dict[str, Any] = {}
         for key, inner in value.items():
@@ -154,21 +153,15 @@ def _converted_texts(value: Any, name: str) -> Any:
             # a table by numbers, as a file has it
             if str(key) in content:
                 raise ConfigError(f"{name}: found the key {single_line(str(key))} twice, as a number and a text; allowed: one")
-            content[str(key)] = _converted_texts(inner, name)
+            locations[inner_path := (*path, str(key))] = name
+            content[str(key)] = _converted_texts(inner, name, inner_path, locations)
         return content
     if isinstance(value, list | tuple):
-        return [_converted_texts(inner, name) for inner in value]
+        # of what is in a list the list has the place
+        return [_converted_texts(inner, name, (), {}) for inner in value]
     if isinstance(value, np.generic):
         return value.item()
     return scalar(value) if isinstance(value, str) else value
-
-
-def _mark(content: Any, path: KeyPath, name: str, locations: dict[KeyPath, str]) -> None:
-    if path:
-        locations[path] = name
-    if isinstance(content, Mapping):
-        for key, value in content.items():
-            _mark(value, (*path, key), name, locations)
 
 
 def joined(below: Any, above: Any) -> Any:

@@ -31,16 +31,16 @@ class Mesh(Section):
 Reduction: Any = section_of(ReductionChoice, "Size of the reduced model.", only=("fixed_interface_modes", "basis_tolerance"))
 
 
+Error = Annotated[float, Field(ge=0, le=1e6)]
+"""A relative error."""
+
+
 class Measured(Section):
     """Error and cost on the worst measured blade (docs/accuracy.md), for `fidelity: auto`."""
 
-    error: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = left_out(
-        "Mean relative error of rms, except with bare casing on points; auto needs it"
-    )
-    error_on_points: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = left_out(
-        "Mean relative error of rms with bare casing on points"
-    )
-    error_of_blades: dict[str, Annotated[float, Field(ge=0, le=1e6)]] = Field(
+    error: Error | LeftOut = left_out("Mean relative error of rms, except with bare casing on points; auto needs it")
+    error_on_points: Error | LeftOut = left_out("Mean relative error of rms with bare casing on points")
+    error_of_blades: dict[str, Error] = Field(
         default={}, description="Error of some blades by name, in place of the others, for verdicts and rankings"
     )
     cpu_s_per_run: float = Field(ge=1e-6, le=1e9, description="CPU seconds per run")

@@ -86,9 +86,8 @@ def _schema(model: type[BaseModel]) -> dict[str, Any]:
 def describe(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
     """Allowed values of a part of a JSON schema, in words."""
     part = _resolved(part, schema)
-    for key in ("anyOf", "oneOf"):
-        if key in part:
-            return " or ".join(describe(choice, schema) for choice in part[key])
+    if choices := _choices(part, schema):
+        return " or ".join(describe(choice, schema) for choice in choices)
     if "const" in part:
         return str(part["const"])
     if "enum" in part:
@@ -129,8 +128,12 @@ def _resolved(part: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str
 
 def _keys(part: Mapping[str, Any], schema: Mapping[str, Any]) -> list[str]:
     """Keys of a mapping, or of those among several kinds of values that are one."""
-    choices = [_resolved(choice, schema) for choice in [*part.get("anyOf", []), *part.get("oneOf", [])]]
-    return list(part.get("properties", {})) + [key for choice in choices for key in choice.get("properties", {})]
+    return [key for kind in (part, *_choices(part, schema)) for key in kind.get("properties", {})]
+
+
+def _choices(part: Mapping[str, Any], schema: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """The kinds of values that a part allows, where it allows several."""
+    return [_resolved(choice, schema) for choice in (*part.get("anyOf", ()), *part.get("oneOf", ()))]
 
 
 def _part_at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], variants: frozenset[str]) -> Mapping[str, Any]:
@@ -139,7 +142,7 @@ def _part_at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], 
     Among several models that of a title in `variants` counts, which pydantic has in the place of an error.
     """
     part = _resolved(part, schema)
-    choices = [_resolved(choice, schema) for choice in [*part.get("anyOf", []), *part.get("oneOf", [])]]
+    choices = _choices(part, schema)
     named = [choice for choice in choices if choice.get("title") in variants]
     if named:
         return _part_at(named[0], path, schema, variants)

@@ -27,8 +27,8 @@ from .document import ConfigRefusals, Document, Documents, chain_of_bases
 from .families import AnyEntry, Designs
 from .fidelity import Level, cheapest_level
 from .scenes import SceneEntry
-from .section import ExtensionSection, plain
-from .speed_section import UNITS, SpeedRange, SpeedRule, key_of_speeds
+from .section import ExtensionSection, Section, plain
+from .speed_section import UNITS, SpeedRule, key_of_speeds
 
 T = TypeVar("T")
 
@@ -189,6 +189,11 @@ class Settings:
         shared, own = self.structure.stress_regions, self.blades[blade].stress_regions
         return chosen_regions(shared) | {name: region for name, region in own.items() if shared.get(name, region)}
 
+    @cached_property
+    def matrices(self) -> list[str]:
+        """Blades that are given by matrices, which have no mesh."""
+        return [name for name, blade in self.blades.items() if blade.is_matrices]
+
     @property
     def linings(self) -> dict[str, Lining]:
         """Lining of each scene that has one."""
@@ -230,7 +235,7 @@ class Settings:
 def _planned(settings: Settings, path: KeyPath, section: Config | SpeedRule) -> SpeedPlan:
     """The speeds of a section at `path`, whose ranges have the level's step where they give none. Raises ConfigError."""
     key, document = key_of_speeds(section), settings.documents.config
-    entries = [plain(entry) if isinstance(entry, SpeedRange) else entry for entry in getattr(section, key)]
+    entries = [plain(entry) if isinstance(entry, Section) else entry for entry in getattr(section, key)]
     try:
         plan = plan_speeds(entries, settings.fidelity.time_integration.speed_step_rad_s, UNITS[key])
     except SpeedError as error:
@@ -306,8 +311,7 @@ def direct_on_points(settings: Settings) -> tuple[list[str], list[str]]:
     """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
     # by their entries: which level is run may depend on it
     scenes = [name for name in settings.scene_names if settings.scene_designs.entries[name].lining is None]
-    meshed = [name for name, blade in settings.blades.items() if not blade.is_matrices]
-    blades = [name for name in meshed if settings.contact_of(name) == POINTS]
+    blades = [name for name in blades_on_points(settings) if name not in settings.matrices]
     return (scenes, blades) if scenes and blades else ([], [])
 
 

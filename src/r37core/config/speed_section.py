@@ -1,6 +1,6 @@
 """Speeds of config.yaml: numbers and ranges, in rad/s or in revolutions per minute, of which one plan in rad/s is made."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Generic, Literal, TypeVar
 
 from pydantic import Discriminator, Field, Tag
 
@@ -9,30 +9,26 @@ from .section import LeftOut, Names, Rpm, Section, Speed, Unique, left_out, or_s
 UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
 
-_STEP = left_out("Step between the speeds; by default the fidelity level's")
-_REFINE_TO = left_out("Smallest interval of adaptive sampling, a whole part of the step")
+T = TypeVar("T", bound=float)
 
 
-class SpeedRange(Section):
-    """Speeds from `start` to `stop`, both included."""
-
-    start: Speed = Field(description="First speed")
-    stop: Speed = Field(description="Last speed, if the step reaches it")
-    step: Speed | LeftOut = _STEP
-    refine_to: Speed | LeftOut = _REFINE_TO
+class _Range(Section, Generic[T]):
+    start: T = Field(description="First speed")
+    stop: T = Field(description="Last speed, if the step reaches it")
+    step: T | LeftOut = left_out("Step between the speeds; by default the fidelity level's")
+    refine_to: T | LeftOut = left_out("Smallest interval of adaptive sampling, a whole part of the step")
 
     def _check(self) -> None:
         if self.stop < self.start:
             raise refused((), f"a range from {self.start:g} to {self.stop:g}", "stop not below start")
 
 
-class RpmRange(SpeedRange):
-    """Speeds in rpm from `start` to `stop`, both included."""
+class SpeedRange(_Range[Speed]):
+    """Speeds from `start` to `stop`, both included."""
 
-    start: Rpm = Field(description="First speed")
-    stop: Rpm = Field(description="Last speed, if the step reaches it")
-    step: Rpm | LeftOut = _STEP
-    refine_to: Rpm | LeftOut = _REFINE_TO
+
+class RpmRange(_Range[Rpm]):
+    """Speeds in rpm from `start` to `stop`, both included."""
 
 
 SpeedList: Any = Annotated[list[or_section(Speed, SpeedRange)], Field(min_length=1)]  # type: ignore[misc]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -56,70 +56,54 @@ class Driver:
         self.structures.mkdir(parents=True, exist_ok=True)
         code = code_of("r37core.time_integration.speed_job.run_job")
         models = self.run_all([partial(self._models, sweep) for sweep in sweeps.values()], "models")
-        runs = [
-            _Runs(self.folder / name, sweep, tuple(files), about[name], code, self.motion)
-            for (name, sweep), files in zip(sweeps.items(), models, strict=True)
-        ]
-        files = self._simulated(runs, speeds, campbell)
+        plan, choice, files = speeds.plan, speeds.choice, dict[float, Sequence[Path]]()
+
+        def simulate(asked: Sequence[float]) -> Sequence[Path]:
+            """Files at some speeds (rad/s), those of one sweep after those of another; a process imports no more for one."""
+            new = self.run_all(
+                [
+                    partial(simulated, self.folder / name, speed, sweep.task_at(speed), started, about[name], code, self.motion)
+                    for (name, sweep), started in zip(sweeps.items(), models, strict=True)
+                    for speed in asked
+                ],
+                SIMULATIONS,
+            )
+            files.update({speed: new[place :: len(asked)] for place, speed in enumerate(asked)})
+            return new
+
+        if plan.refined:
+            assert campbell is not None
+            asked = first_round(plan, read_dataset(campbell), choice)
+            while asked.new:
+                yields = [sweep.yield_stress for sweep in sweeps.values()]
+                asked = round_after(asked, measure_members(yields, asked.new, simulate(asked.new)), plan, choice)
+        else:
+            simulate(plan.certain)
         every_speed = sorted(files)
-        of_runs = zip(*(files[speed] for speed in every_speed), strict=True)
-        responses = self.run_all(
-            [partial(run.response, every_speed, own) for run, own in zip(runs, of_runs, strict=True)], "responses"
-        )
-        return dict(zip(sweeps, responses, strict=True))
+        own_files = zip(*(files[speed] for speed in every_speed), strict=True)
+        calls = [
+            partial(_response, self.folder / name / "response.nc", sweep, every_speed, own, json.loads(about[name]))
+            for (name, sweep), own in zip(sweeps.items(), own_files, strict=True)
+        ]
+        return dict(zip(sweeps, self.run_all(calls, "responses"), strict=True))
 
     def _models(self, sweep: BladeSweep) -> list[tuple[str, str]]:
         """Files of the models of a sweep, each with the digest of its content."""
         files = [str(sweep.file(stage, self.structures, self.attributes)) for stage in sweep.models]
         return [(file, content_digest(file)) for file in files]
 
-    def _simulated(self, runs: Sequence[_Runs], speeds: SharedSpeeds, campbell: Path | None) -> dict[float, Sequence[Path]]:
-        """Simulate at all speeds (rad/s); gives the file of each run at each of them."""
 
-        def simulate(asked: Sequence[float]) -> Sequence[Path]:
-            new = self.run_all([run.simulation(speed) for run in runs for speed in asked], SIMULATIONS)
-            files.update({speed: new[place :: len(asked)] for place, speed in enumerate(asked)})
-            return new
-
-        plan, choice, files = speeds.plan, speeds.choice, dict[float, Sequence[Path]]()
-        if not plan.refined:
-            simulate(plan.certain)
-            return files
-        assert campbell is not None
-        asked = first_round(plan, read_dataset(campbell), choice)
-        while asked.new:
-            measured = measure_members([run.sweep.yield_stress for run in runs], asked.new, simulate(asked.new))
-            asked = round_after(asked, measured, plan, choice)
-        return files
-
-
-@dataclass(frozen=True)
-class _Runs:
-    """Simulations of a `sweep` in a folder, from `models` with their digests."""
-
-    folder: Path
-    sweep: BladeSweep
-    models: tuple[tuple[str, str], ...]
-    about: str
-    code: Sequence[str]
-    motion: InitialMotion | None = field(default=None, compare=False)
-
-    def simulation(self, speed: float) -> Callable[[], Path]:
-        """Call that gives the file of the simulation at a speed (rad/s); a process of its own imports no more for it."""
-        return partial(
-            simulated, self.folder, speed, self.sweep.task_at(speed), self.models, self.about, self.code, self.motion
-        )
-
-    def response(self, speeds: Sequence[float], simulations: Sequence[Path]) -> Path:
-        """File of the response over the speeds (rad/s), of the files of its `simulations` there."""
-        file = self.folder / "response.nc"
-        write_response(
-            simulations,
-            speeds,
-            file,
-            stress_history_speeds=self.sweep.history_speeds,
-            yield_stress=self.sweep.yield_stress,
-            strengths=self.sweep.strengths,
-            provenance=json.loads(self.about),
-        )
-        return file
+def _response(
+    file: Path, sweep: BladeSweep, speeds: Sequence[float], simulations: Sequence[Path], provenance: Mapping[str, Any]
+) -> Path:
+    """The file, written as the response over the speeds (rad/s) of a sweep, of the files of its `simulations` there."""
+    write_response(
+        simulations,
+        speeds,
+        file,
+        stress_history_speeds=sweep.history_speeds,
+        yield_stress=sweep.yield_stress,
+        strengths=sweep.strengths,
+        provenance=provenance,
+    )
+    return file
