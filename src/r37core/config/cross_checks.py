@@ -20,7 +20,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_blades import NO_ROTOR
 
 from .document import ConfigRefusals
-from .settings import RunLength, Settings, fastest_of, length_of_run, slowest_speeds
+from .settings import RunLength, Settings, blades_of_matrices, fastest_of, length_of_run, slowest_speeds
 from .speed_section import key_of_speeds
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
@@ -119,8 +119,9 @@ def _most_nodes(settings: Settings) -> int:
 
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
-    if settings.matrices and settings.structure.spin_softening:
-        value = f"true with the blade '{settings.matrices[0]}', given by matrices"
+    matrices = blades_of_matrices(settings)
+    if matrices and settings.structure.spin_softening:
+        value = f"true with the blade '{matrices[0]}', given by matrices"
         allowed = "false; put the term into its K_<speed>"
         raise settings.documents.config.refusal(("structure", "spin_softening"), value, allowed)
 
@@ -129,7 +130,7 @@ def kinematics_can_be_had(settings: Settings) -> None:
     """Large displacements are wanted of blades with a mesh, and those of second order with what carries them."""
     structure, key, document = settings.structure, ("structure", "kinematics"), settings.documents.config
     wanted = {name: settings.kinematics_of(name) for name in settings.blades}
-    matrices = [name for name in settings.matrices if wanted[name] != LINEAR]
+    matrices = [name for name in blades_of_matrices(settings) if wanted[name] != LINEAR]
     if matrices:
         origin = f"the blade '{matrices[0]}', given by matrices, which say nothing of large displacements"
         raise document.refusal(key, f"{wanted[matrices[0]]} with {origin}", f"{LINEAR}, or the blade's mesh")
@@ -183,7 +184,7 @@ def rotors_can_be_run(settings: Settings) -> None:
 
 def clearances_reach_all_speeds(settings: Settings) -> None:
     """The growth of a casing is given up to the highest speed; the blades' own follows from their mesh."""
-    document, matrices = settings.documents.scenes, settings.matrices
+    document, matrices = settings.documents.scenes, blades_of_matrices(settings)
     for name, chosen in settings.scenes.items():
         casing, path = chosen.scene.casing, (name, "casing", "clearance")
         modelled, run = settings.structure.maximum_speed_rad_s, fastest_of(settings, name)

@@ -189,11 +189,6 @@ class Settings:
         shared, own = self.structure.stress_regions, self.blades[blade].stress_regions
         return chosen_regions(shared) | {name: region for name, region in own.items() if shared.get(name, region)}
 
-    @cached_property
-    def matrices(self) -> list[str]:
-        """Blades that are given by matrices, which have no mesh."""
-        return [name for name, blade in self.blades.items() if blade.is_matrices]
-
     @property
     def linings(self) -> dict[str, Lining]:
         """Lining of each scene that has one."""
@@ -311,7 +306,7 @@ def direct_on_points(settings: Settings) -> tuple[list[str], list[str]]:
     """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
     # by their entries: which level is run may depend on it
     scenes = [name for name in settings.scene_names if settings.scene_designs.entries[name].lining is None]
-    blades = [name for name in blades_on_points(settings) if name not in settings.matrices]
+    blades = [name for name in blades_on_points(settings) if not settings.blades[name].is_matrices]
     return (scenes, blades) if scenes and blades else ([], [])
 
 
@@ -326,6 +321,11 @@ def contact_of_blades(settings: Settings) -> dict[str, str]:
         points = f"{number or ''} {contact}".strip() if contact == POINTS else contact
         kinds[name] = f"{points}, {settings.kinematics_of(name)}"
     return kinds
+
+
+def blades_of_matrices(settings: Settings) -> list[str]:
+    """Blades that are given by matrices, which have no mesh."""
+    return [name for name, blade in settings.blades.items() if blade.is_matrices]
 
 
 def blades_on_points(settings: Settings) -> list[str]:

@@ -64,7 +64,7 @@ class Structure:
     @property
     def meshed_blades(self) -> list[str]:
         """Blades that have a mesh, ours or another program's."""
-        return [name for name in self.settings.blades if name not in self.settings.matrices]
+        return [name for name, blade in self.settings.blades.items() if not blade.is_matrices]
 
     def pattern(self, rule: str) -> str:
         """Pattern of the blades that a rule is for, for its wildcard; it fits nothing without any."""
