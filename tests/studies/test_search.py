@@ -2,7 +2,6 @@
 
 import json
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,10 +16,10 @@ from r37studies.search import steps
 from r37studies.search.dataset import search_dataset, search_table
 from r37studies.search.designs import designs_of
 from r37studies.search.figures import draw_designs
-from r37studies.search.problem import START, Constraint, SearchChoice
-from r37studies.search.quantity import DesignStructure, Quantity, contact_value, structure_value
+from r37studies.search.problem import START, SearchChoice
+from r37studies.search.quantity import contact_value, structure_value
+from r37studies.search.section import ConstraintSection, ObjectiveSection, QuantitySection, SearchSection
 from r37studies.search.steps import next_designs
-from r37studies.surrogate.designs import SearchVariable
 from r37studies.surrogate.proposal import first_designs
 
 BLADES = """
@@ -65,7 +64,7 @@ def folder(config_copy):
         ("{ variables: { sweep_lean.7.sweep_cm: [0, 1] } }", "sweep_lean.7.sweep_cm: .*counted from 0"),
         ("{ variables: { stagger_deg.tip: [-300, 1] } }", "search.variables.stagger_deg.tip: .*at least -90, at most 90"),
         ("{ variables: { stagger_deg: [-1, 1] } }", "variables.stagger_deg.tip: found stagger_deg.tip beside stagger_deg"),
-        ("{ variables: { chordwise_sweep_deg: [-1, 1] } }", "chordwise_sweep_deg: .*at most one of"),
+        ("{ variables: { chordwise_sweep_deg: [-1, 1] } }", "chordwise_sweep_deg: .*one of them"),
         ("{ objectives: { other: { measure: speed } } }", "objectives.other.measure: found 'speed'; allowed: one of length_"),
         ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
         ("{ objectives: { other: { measure: frequency_hz, mode: 1b } } }", "other.mode: found 1b; allowed: .*, 1B, 1T, 2B, 4"),
@@ -121,15 +120,19 @@ def test_without_stress_nothing_starts(folder):
         read_settings(folder)
 
 
-VARIABLES = (SearchVariable("stagger_deg.tip", -3.0, 3.0), SearchVariable("sweep_lean.1.sweep_cm", -1.0, 1.0))
 OF_START = {"lined": (40.0, 1.0), "mass": (2.0, 0.0)}
+LINED, MASS = {"measure": "length_most_revolutions_rad_s", "scenes": ["s"]}, {"measure": "mass_kg"}
 
 
-def choice(method="quasi_random", seed=0, start=(0.0, None)):
-    constraints = {"mass": Constraint(Quantity("mass_kg"), None, None, 95.0, 110.0)}
-    return SearchChoice(
-        VARIABLES, {"lined": Quantity("length_most_revolutions_rad_s", ("s",))}, constraints, method, seed, start
-    )
+def choice(method="quasi_random", seed=0, start=(0.0, None), **keys):
+    """Choice of a search, with other keys of its section."""
+    section = {
+        "blade": "Free",
+        "variables": {"stagger_deg.tip": [-3.0, 3.0], "sweep_lean.1.sweep_cm": [-1.0, 1.0]},
+        "objectives": {"lined": LINED},
+        "constraints": {"mass": {**MASS, "at_least_percent": 95.0, "at_most_percent": 110.0}},
+    }
+    return SearchChoice(SearchSection(**{**section, "method": method, "seed": seed, **keys}), start)
 
 
 def gave(values):
@@ -163,7 +166,7 @@ def test_rounds_spend_the_budget_in_batches_and_the_same_seed_gives_the_same(met
     ]
     assert (tried["d0001"].refused, tried["d0001"].quantities, tried["d0001"].is_done) == ("crossed", {}, False)
     if method == "quasi_random":
-        assert [design.values for design in designs] == first_designs(VARIABLES, 7, 0)
+        assert [design.values for design in designs] == first_designs(choice().variables, 7, 0)
     # a larger budget changes no design that is there
     assert repr(list(searched(choice(method), (3, 2, 2, 1)).values())[:8]) == repr(list(tried.values()))
 
@@ -184,16 +187,18 @@ def test_margins_are_of_the_start_in_percent():
     wanted = choice()
     assert wanted.margins({"mass": (2.1, 0.0)}, OF_START) == pytest.approx([2.1 - 1.9, 2.2 - 2.1])
     assert all(math.isnan(margin) for margin in wanted.margins({"mass": (math.nan, math.nan)}, OF_START))
-    assert Constraint(Quantity("mass_kg"), 1.0, None, None, 50.0).bounds(8.0) == (1.0, 4.0)
-    for bounds, margin in (((1.5, None), 0.5), ((None, 3.0), 1.0)):
-        one = {"mass": Constraint(Quantity("mass_kg"), *bounds, None, None)}
-        assert replace(wanted, constraints=one).margins(OF_START, OF_START) == [margin]
+    assert ConstraintSection(measure="mass_kg", at_least=1.0, at_most_percent=50.0).bounds(8.0) == (1.0, 4.0)
+    for bounds, margin in (({"at_least": 1.5}, 0.5), ({"at_most": 3.0}, 1.0)):
+        assert choice(constraints={"mass": {**MASS, **bounds}}).margins(OF_START, OF_START) == [margin]
     # percent of what is not known bound nothing
     assert wanted.margins({"mass": (2.1, 0.0)}, {"mass": (math.nan, math.nan)}) == []
 
 
-def structure():
-    campbell = xr.Dataset(
+STRESS = {1000.0: 5e8, 500.0: 2e8}
+
+
+def campbell():
+    return xr.Dataset(
         {
             "frequency": (("mode", "speed"), [[100.0, 140.0]]),
             "crossing_speed": (("mode", "engine_order"), [[900.0, math.nan]]),
@@ -201,26 +206,30 @@ def structure():
         },
         coords={"mode": ["1B"], "speed": [0.0, 1000.0], "engine_order": [1, 2]},
     )
-    return DesignStructure(2.0, 8000.0, campbell, {1000.0: 5e8, 500.0: 2e8})
 
 
 @pytest.mark.parametrize(
-    ("quantity", "expected"),
+    ("measure", "keys", "expected"),
     [
-        (Quantity("mass_kg"), 16000.0),
-        (Quantity("frequency_hz", mode="1B"), 100.0),
-        (Quantity("frequency_hz", mode="1B", speed=500.0), 120.0),
-        (Quantity("frequency_margin_percent", mode="1B", engine_order=2, speed=500.0), 100.0 * (1.0 - 120.0 * math.pi / 500.0)),
-        (Quantity("crossing_margin_percent", mode="1B", engine_order=1, speed=1000.0), 10.0),
+        ("mass_kg", {}, 16000.0),
+        ("frequency_hz", {"mode": "1B"}, 100.0),
+        ("frequency_hz", {"mode": "1B", "speed_rad_s": 500.0}, 120.0),
+        ("frequency_margin_percent", {"mode": "1B", "engine_order": 2, "speed_rad_s": 500.0}, 24.6018),
+        ("crossing_margin_percent", {"mode": "1B", "engine_order": 1, "speed_rad_s": 1000.0}, 10.0),
         # which no speed has
-        (Quantity("crossing_margin_percent", mode="1B", engine_order=2, speed=1000.0), 100.0),
-        (Quantity("clearance_loss_m", mode="1B"), 3e-4),
-        (Quantity("static_stress_pa"), 5e8),
-        (Quantity("static_stress_pa", speed=500.0), 2e8),
+        ("crossing_margin_percent", {"mode": "1B", "engine_order": 2, "speed_rad_s": 1000.0}, 100.0),
+        ("clearance_loss_m", {"mode": "1B"}, 3e-4),
+        ("static_stress_pa", {}, 5e8),
+        ("static_stress_pa", {"speed_rad_s": 500.0}, 2e8),
     ],
 )
-def test_quantities_of_a_structure(quantity, expected):
-    assert structure_value(quantity, structure(), 1000.0) == pytest.approx(abs(expected))
+def test_quantities_of_a_structure(measure, keys, expected):
+    quantity = QuantitySection(measure=measure, **keys)
+    assert structure_value(quantity, 16000.0, campbell(), STRESS, 1000.0) == pytest.approx(expected)
+
+
+def of_contact(measure, *scenes, **keys):
+    return ObjectiveSection(measure=measure, scenes=list(scenes), **keys)
 
 
 def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
@@ -232,11 +241,11 @@ def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
         "a": [{"length_most_revolutions_rad_s": float(value)} for value in range(11)],
         "b": [{"length_most_revolutions_rad_s": 7.0}] * 4,
     }
-    assert contact_value(Quantity("length_most_revolutions_rad_s", ("a", "b")), nominal, {}) == (5.0, 0.05)
-    value, scatter = contact_value(Quantity("length_most_revolutions_rad_s", ("a", "b"), quantile=0.9), nominal, members)
+    assert contact_value(of_contact("length_most_revolutions_rad_s", "a", "b"), nominal, {}) == (5.0, 0.05)
+    value, scatter = contact_value(of_contact("length_most_revolutions_rad_s", "a", "b", quantile=0.9), nominal, members)
     assert value == pytest.approx(9.0) and 0.2 < scatter < 3.0
-    assert contact_value(Quantity("length_most_revolutions_rad_s", ("b",), quantile=0.5), nominal, members) == (7.0, 0.0)
-    value, scatter = contact_value(Quantity("largest_rms_m", ("a",)), {"a": {"largest_rms_m": 2.0, "diverged_runs": 0.0}}, {})
+    assert contact_value(of_contact("length_most_revolutions_rad_s", "b", quantile=0.5), nominal, members) == (7.0, 0.0)
+    value, scatter = contact_value(of_contact("largest_rms_m", "a"), {"a": {"largest_rms_m": 2.0, "diverged_runs": 0.0}}, {})
     assert value == 2.0 and np.isnan(scatter)
 
 
@@ -244,11 +253,11 @@ def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
 def test_a_design_is_not_better_for_runs_that_diverged(measure):
     """They have neither motion nor stress."""
     ended, diverged = ({measure: 2.0, "diverged_runs": float(number)} for number in (0, 1))
-    value, scatter = contact_value(Quantity(measure, ("a", "b")), {"a": ended, "b": diverged}, {})
+    value, scatter = contact_value(of_contact(measure, "a", "b"), {"a": ended, "b": diverged}, {})
     assert value == np.inf and np.isnan(scatter)
     members = {"a": [ended] * 8 + [diverged] * 2}
     for quantile, expected in ((0.5, 2.0), (0.9, np.inf)):
-        value, scatter = contact_value(Quantity(measure, ("a",), quantile=quantile), {}, members)
+        value, scatter = contact_value(of_contact(measure, "a", quantile=quantile), {}, members)
         assert value == expected and np.isnan(scatter)
 
 
@@ -284,7 +293,7 @@ def test_a_design_without_a_number_is_neither_feasible_nor_among_the_best():
 )
 def test_of_two_objectives_designs_that_none_beats_come_first_by_their_shares_of_the_start(start, lengths, order):
     """The second beats the last. Sums of shares: of 0.4 and 2 1.35, 1.6 and 2.15; of 0.8 and 2 1.225, 1.1 and 1.15."""
-    wanted = replace(choice(), objectives={**choice().objectives, "mass": Quantity("mass_kg")}, constraints={})
+    wanted = choice(objectives={"lined": LINED, "mass": MASS}, constraints={})
     gave = [{"lined": (length, 0.0), "mass": (mass, 0.0)} for length, mass in zip(lengths, (2.2, 1.2, 0.3, 1.25), strict=True)]
     tried = started(wanted, {"lined": (start, 0.0), "mass": (2.0, 0.0)})
     for n, of in enumerate(gave):
@@ -307,25 +316,22 @@ def test_a_search_of_which_nothing_is_feasible_has_a_table():
 
 
 KEYS = ("sweep_lean.1.sweep_cm", "stagger_deg.tip")
-OF = {"lined": Quantity("length_most_revolutions_rad_s", ("s",)), "stress": Quantity("static_stress_pa")}
-OF |= {"mass": Quantity("mass_kg")}
+OF = {"lined": LINED, "stress": {"measure": "static_stress_pa"}, "mass": MASS}
 LENGTHS = (50.0, 5.0, 400.0, np.nan, 100.0, 0.0, 20.0)
 
 
 def search_of(objectives=("lined", "stress"), keys=KEYS, most=2.0, start=-1.0, **of_start):
     """The start and six designs in two rounds: the first is too heavy, the third cannot be built."""
-    variables = tuple(SearchVariable(key, -1.0, 1.0) for key in keys)
-    constraints = {"weight": Constraint(OF["mass"], None, most, None, None)}
-    wanted = {name: OF[name] for name in objectives}
-    choice = SearchChoice(variables, wanted, constraints, "surrogate", 0, len(keys) * (start,))
+    sections = {"objectives": {name: OF[name] for name in objectives}, "constraints": {"weight": {**MASS, "at_most": most}}}
+    wanted = choice("surrogate", start=len(keys) * (start,), variables={key: [-1.0, 1.0] for key in keys}, **sections)
     tried = {}
     for place, (length, value) in enumerate(zip(LENGTHS, np.linspace(-1.0, 1.0, 7).tolist(), strict=True)):
         mass = 9.0 if place == 1 else 1.0 + 0.001 * length
         found = {"lined": length, "stress": 1e6 * (500.0 - length), "mass": mass, "weight": mass}
         found = {name: (number, 0.05 * number) for name, number in found.items()} | ({} if tried else of_start)
-        name, values = (f"d{place - 1:04d}", len(keys) * (value,)) if tried else (START, choice.start)
-        tried[name] = choice.design(name, values, (place - 1) // 3, "surfaces cross" if place == 3 else found, tried)
-    return search_dataset(tried, choice)
+        name, values = (f"d{place - 1:04d}", len(keys) * (value,)) if tried else (START, wanted.start)
+        tried[name] = wanted.design(name, values, (place - 1) // 3, "surfaces cross" if place == 3 else found, tried)
+    return search_dataset(tried, wanted)
 
 
 def lines(axes, label):

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from test_search import BLADES, SEARCH, structure
+from test_search import BLADES, SEARCH, campbell
 from workflow_runs import overlay
 
 from r37core.base.dataset_file import read_dataset, write_dataset
@@ -23,10 +23,10 @@ from r37core.sweep.driver import one_by_one
 from r37core.sweep.recipe import Recipe, recipes
 from r37studies.search import evaluation, steps
 from r37studies.search.designs import NOMINAL, designs_of
-from r37studies.search.evaluation import Evaluation, Refused
+from r37studies.search.evaluation import Evaluation
 from r37studies.search.plan import Search, remarks, simulations
 
-CHECK_SHAPE = Evaluation._check_shape
+FILE = Recipe.file
 
 
 @pytest.fixture
@@ -48,7 +48,7 @@ def simulated(tmp_path, monkeypatch):
     """The stress by rotation alone grows with the square of the speed, for nothing stiffens. The second design is refused."""
     done = Simulated()
     write_dataset(xr.Dataset({"volume": 2.0}), tmp_path / "geometry.nc")
-    write_dataset(structure().campbell, tmp_path / "campbell.nc")
+    write_dataset(campbell(), tmp_path / "campbell.nc")
     operator = np.zeros((6, 1, 2))
     operator[0, 0] = 7.0, 1.0
 
@@ -64,19 +64,16 @@ def simulated(tmp_path, monkeypatch):
             return {member: done.lengths.get((scene, member), float(design.strip("dstar") or 0)) for member in sweeps}
 
     def file(self, *_):
+        if "search/d0001" in str(self.params):
+            raise ValueError("crossed")
         return tmp_path / self.name
 
     def robustness(length, chance_scatter=True, operating=None):
         scatter = {"exceedance_integral_scatter_rad_s": 0.5} if chance_scatter else {}
         return {"exceedance_integral_rad_s": length, **scatter}
 
-    def check_shape(self, name, runs):
-        if name == "d0001":
-            raise Refused("crossed")
-
     monkeypatch.setattr(evaluation, "Driver", Driver)
     monkeypatch.setattr(Recipe, "file", file)
-    monkeypatch.setattr(Evaluation, "_check_shape", check_shape)
     monkeypatch.setattr(evaluation, "read_judged", lambda length: length)
     monkeypatch.setattr(evaluation, "robustness", robustness)
     monkeypatch.setattr(evaluation, "read_contact_model", lambda file: Named(rotation_stiffening=np.zeros(1)))
@@ -123,14 +120,11 @@ def test_a_design_is_measured_by_its_structure_and_by_all_its_runs(folder, simul
 
 
 def test_a_design_that_cannot_be_built_is_a_result(folder, simulated, monkeypatch):
-    """One that is no blade, and one without anything where stress is looked for."""
-    monkeypatch.setattr(Evaluation, "_check_shape", CHECK_SHAPE)
-    overlay(folder, "fidelity.yaml", "draft: { mesh: { nodes: 1500, tip_elements: 14 } }")
-    (built,) = quantities(folder, {"d0001": (0.5, 1.0)})
-    assert built == {"lined": [1.0, 0.5]} and simulated == ["d0001/abradable"]
-    overlay(folder, "config.yaml", "structure: { stress_regions: { airfoil: { maximum_x_m: 0.1 } } }")
-    refused = quantities(folder, {"d0001": (0.5, 1.0), "d0002": (0.0, 89.0)})
-    assert refused[0].startswith("the stress region") and "stagger_deg" in refused[1] and len(simulated) == 1
+    """One that is no blade, and one of an impossible shape; the start raises."""
+    monkeypatch.setattr(Recipe, "file", FILE)
+    overlay(folder, "config.yaml", "search: { variables: { thickness_percent: [900, 1000] } }")
+    refused = quantities(folder, {"d0001": (0.5, 1.0, 950.0), "d0002": (0.0, 89.0, 100.0)})
+    assert "no pressure-side arc" in refused[0] and "stagger_deg" in refused[1] and not simulated
 
 
 def test_a_design_that_buckles_is_a_result(folder, simulated):
@@ -142,7 +136,9 @@ def test_a_design_that_buckles_is_a_result(folder, simulated):
 def test_designs_are_measured_again_by_other_code_of_their_structure(folder, simulated, monkeypatch):
     quantities(folder, {"start": None})
     code_of = recipe.code_of
-    monkeypatch.setattr(recipe, "code_of", lambda step: "another" if step == "r37core.fem.steps.mesh" else code_of(step))
+    monkeypatch.setattr(
+        recipe, "code_of", lambda step, *more: "another" if step == "r37core.fem.steps.mesh" else code_of(step, *more)
+    )
     quantities(folder, {"start": None})
     assert simulated == ["start/abradable", "start/abradable"]
 

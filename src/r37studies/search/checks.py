@@ -97,22 +97,24 @@ def _is_of_scenes(designs: SearchDesigns, document: Document, number: VariedNumb
 def _scenes_are_run(settings: Settings) -> None:
     entry, document = designs_of(settings).entry, settings.documents.config
     modes = mode_names(settings.config.campbell.modes)
-    for where in ("objectives", "constraints"):
-        for name, quantity in getattr(entry, where).items():
-            path = ("search", where, name)
-            for scene in quantity.scenes or ():
-                if scene not in settings.scene_names:
-                    allowed = f"scenes that are run ({', '.join(settings.scene_names)})"
-                    raise document.refusal((*path, "scenes"), f"'{scene}'", allowed)
-                needed = "fatigue" if quantity.measure in FATIGUE_MEASURES else "stress"
-                if needed not in settings.results_of(entry.blade, scene):
-                    allowed = f"scenes with {needed} among their results"
-                    raise document.refusal((*path, "scenes"), f"'{scene}', without {needed}", allowed)
-            if quantity.mode is not None and quantity.mode not in modes:
-                allowed = f"one of the Campbell diagram, {', '.join(modes)} (campbell.modes)"
-                raise document.refusal((*path, "mode"), single_line(quantity.mode), allowed)
-            if quantity.engine_order is not None:
-                engine_order_is_known(settings, (*path, "engine_order"), quantity.engine_order)
+    quantities = [
+        ((where, name), each) for where in ("objectives", "constraints") for name, each in getattr(entry, where).items()
+    ]
+    for place, quantity in quantities:
+        path = ("search", *place)
+        needed = "fatigue" if quantity.measure in FATIGUE_MEASURES else "stress"
+        for scene in quantity.scenes or ():
+            if scene not in settings.scene_names:
+                allowed = f"scenes that are run ({', '.join(settings.scene_names)})"
+                raise document.refusal((*path, "scenes"), f"'{scene}'", allowed)
+            if needed not in settings.results_of(entry.blade, scene):
+                allowed = f"scenes with {needed} among their results"
+                raise document.refusal((*path, "scenes"), f"'{scene}', without {needed}", allowed)
+        if quantity.mode is not None and quantity.mode not in modes:
+            allowed = f"one of the Campbell diagram, {', '.join(modes)} (campbell.modes)"
+            raise document.refusal((*path, "mode"), single_line(quantity.mode), allowed)
+        if quantity.engine_order is not None:
+            engine_order_is_known(settings, (*path, "engine_order"), quantity.engine_order)
     if not designs_of(settings).scenes:
         raise document.refusal(("search", "objectives"), "no scene", "an objective or constraint of contact, with scenes")
 

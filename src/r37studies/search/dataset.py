@@ -1,7 +1,8 @@
 """search.nc and search.csv: what a search writes, and its last line."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -9,7 +10,7 @@ import xarray as xr
 
 from r37core.base.dataset_file import about, read_dataset
 from r37core.base.rounding import rounded_to
-from r37core.base.units import shown_unit
+from r37core.base.units import shown_unit, unit_of
 from r37core.results.closing import counted
 from r37studies.surrogate.designs import Design, best_first, not_dominated
 
@@ -19,14 +20,53 @@ from .problem import START, UNKNOWN, SearchChoice
 
 def search_dataset(tried: Mapping[str, Design], choice: SearchChoice) -> xr.Dataset:
     """All designs of a search that were `tried`, the start first."""
-    designs = list(tried.values())
-    order, front = _best(designs[1:], tried[START]), {design.name for design in not_dominated(designs)}
-    dataset = xr.Dataset(coords=_coordinates(list(tried), choice))
-    dataset = dataset.assign(_design_variables(designs, choice)).assign(_bound_variables(choice, tried[START]))
-    dataset["not_dominated"] = ("design", np.array([name in front for name in tried], "i1"), _NOT_DOMINATED)
+    designs, start, entry = list(tried.values()), tried[START], choice.entry
+    order, front = _best(designs[1:], start), {design.name for design in not_dominated(designs)}
+    constraints = [[design.quantities.get(name, UNKNOWN)[0] for name in entry.constraints] for design in designs]
+    bounds = [constraint.bounds(start.quantities[name][0]) for name, constraint in entry.constraints.items()]
+    lowest, highest = np.array(bounds, float).reshape(-1, 2).T
+    of_design, of_objective, of_constraint = ("design",), ("design", "objective"), ("design", "constraint")
+
+    def listed(name: str) -> list[Any]:
+        return [getattr(design, name) for design in designs]
+
+    def flags(values: Iterable[object], kind: str = "i1") -> np.ndarray:
+        return np.array(list(values), kind)
+
     places = [order.index(name) + 1 if name in order else 0 for name in tried]
-    dataset["order"] = ("design", np.array(places, "i4"), _ORDER)
-    return dataset
+    variables = {
+        "value": (("design", "variable"), listed("values"), "in the unit of the key"),
+        "round": (of_design, listed("round"), "that proposed the design; -1 of the start"),
+        "feasible": (of_design, flags(listed("is_feasible")), "whether it can be built and keeps all constraints"),
+        "objective_value": (of_objective, listed("objectives"), "in the unit of the objective"),
+        "objective_scatter": (of_objective, listed("scatters"), "standard deviation by chance"),
+        "constraint_value": (of_constraint, np.array(constraints, float), "in the unit of the constraint"),
+        "lowest": (("variable",), [low for low, _ in entry.variables.values()], "bound of the variable"),
+        "highest": (("variable",), [high for _, high in entry.variables.values()], "bound of the variable"),
+        "constraint_lowest": (("constraint",), lowest, "what has to be reached, in the unit of the constraint"),
+        "constraint_highest": (("constraint",), highest, "what may not be passed, in the unit of the constraint"),
+        "not_dominated": (
+            of_design,
+            flags(name in front for name in tried),
+            "whether the design keeps all constraints and no other that does is better in all objectives",
+        ),
+        "order": (
+            of_design,
+            flags(places, "i4"),
+            "place among the best designs, 1 the first; 0 for one that cannot be built or breaks a constraint",
+        ),
+    }
+    described = {name: (dims, values, about("1", words)) for name, (dims, values, words) in variables.items()}
+    described["refused"] = (of_design, listed("refused"), {"long_name": "why it cannot be built"})
+    objectives = entry.objectives.values()
+    names = {"design": list(tried), "variable": list(entry.variables), "objective": list(entry.objectives)}
+    names |= {"constraint": list(entry.constraints)}
+    measures = {
+        "objective_unit": ("objective", [unit_of(each.measure) for each in objectives]),
+        "objective_measure": ("objective", [each.measure for each in objectives]),
+        "constraint_unit": ("constraint", [unit_of(each.measure) for each in entry.constraints.values()]),
+    }
+    return xr.Dataset(described, names | measures)
 
 
 def _best(tried: Sequence[Design], start: Design) -> list[str]:
@@ -43,68 +83,17 @@ def _best(tried: Sequence[Design], start: Design) -> list[str]:
     return [each.name for each in ranked]
 
 
-_NOT_DOMINATED = about("1", "whether the design keeps all constraints and no other that does is better in all objectives")
-_ORDER = about("1", "place among the best designs, 1 the first; 0 for one that cannot be built or breaks a constraint")
-
-
-def _coordinates(designs: list[str], choice: SearchChoice) -> dict[str, object]:
-    objectives, constraints = choice.objectives.values(), [each.quantity for each in choice.constraints.values()]
-    return {
-        "design": designs,
-        "variable": [variable.key for variable in choice.variables],
-        "objective": list(choice.objectives),
-        "constraint": list(choice.constraints),
-        "objective_unit": ("objective", [quantity.unit for quantity in objectives]),
-        "objective_measure": ("objective", [quantity.measure for quantity in objectives]),
-        "constraint_unit": ("constraint", [quantity.unit for quantity in constraints]),
-    }
-
-
-def _design_variables(designs: Sequence[Design], choice: SearchChoice) -> dict[str, object]:
-    objectives, scatters, feasible = (
-        [getattr(each, name) for each in designs] for name in ("objectives", "scatters", "is_feasible")
-    )
-    constraints = [[design.quantities.get(name, UNKNOWN)[0] for name in choice.constraints] for design in designs]
-    over = ("design", "objective")
-    return {
-        "value": (("design", "variable"), [design.values for design in designs], about("1", "in the unit of the key")),
-        "round": ("design", [design.round for design in designs], about("1", "that proposed the design; -1 of the start")),
-        "refused": ("design", [design.refused for design in designs], {"long_name": "why it cannot be built"}),
-        "feasible": ("design", np.array(feasible, "i1"), about("1", "whether it can be built and keeps all constraints")),
-        "objective_value": (over, objectives, about("1", "in the unit of the objective")),
-        "objective_scatter": (over, scatters, about("1", "standard deviation by chance")),
-        "constraint_value": (
-            ("design", "constraint"),
-            np.array(constraints, float),
-            about("1", "in the unit of the constraint"),
-        ),
-    }
-
-
-def _bound_variables(choice: SearchChoice, start: Design) -> dict[str, object]:
-    bounds = [constraint.bounds(start.quantities[name][0]) for name, constraint in choice.constraints.items()]
-    lowest, highest = np.array(bounds, float).reshape(-1, 2).T
-    return {
-        "lowest": ("variable", [variable.lowest for variable in choice.variables], about("1", "bound of the variable")),
-        "highest": ("variable", [variable.highest for variable in choice.variables], about("1", "bound of the variable")),
-        "constraint_lowest": ("constraint", lowest, about("1", "what has to be reached, in the unit of the constraint")),
-        "constraint_highest": ("constraint", highest, about("1", "what may not be passed, in the unit of the constraint")),
-    }
-
-
 def search_table(search: xr.Dataset) -> pd.DataFrame:
     """A row for each design: values, objectives with their scatter, constraints, round, and why it was refused."""
     table = pd.DataFrame({"design": search["design"].values, "round": search["round"].values})
-    for key in search["variable"].values:
-        table[str(key)] = search["value"].sel(variable=key).values
-    for name in search["objective"].values:
-        table[str(name)] = search["objective_value"].sel(objective=name).values
-        table[f"{name}_scatter"] = search["objective_scatter"].sel(objective=name).values
-    for name in search["constraint"].values:
-        table[str(name)] = search["constraint_value"].sel(constraint=name).values
-    for name in ("feasible", "not_dominated", "order", "refused"):
-        table[name] = search[name].values
-    return table
+    for axis, kinds in (("variable", {"value": ""}), ("objective", _OF_OBJECTIVES), ("constraint", {"constraint_value": ""})):
+        for name in search[axis].values:
+            for kind, end in kinds.items():
+                table[f"{name}{end}"] = search[kind].sel({axis: name}).values
+    return table.assign(**{name: search[name].values for name in ("feasible", "not_dominated", "order", "refused")})
+
+
+_OF_OBJECTIVES = {"objective_value": "", "objective_scatter": "_scatter"}
 
 
 def closing(results: Path) -> str:

@@ -14,9 +14,8 @@ from r37core.config.families import design_entry
 from r37core.config.shape_keys import SECTION_KEYS, SHARES, ShapeKeys, neutral_value
 from r37core.contact.scene import Scene
 from r37studies.member_values import drawn, sobol_points
-from r37studies.surrogate.designs import SearchVariable
 
-from .problem import Constraint, SearchChoice
+from .problem import SearchChoice
 from .section import SECTION, SearchSection
 
 FOLDER = SECTION.name
@@ -112,10 +111,15 @@ class SearchDesigns:
         return {scene: self._scene_members(name, blade, scene, self.scene_changes(scene, named)) for scene in self.scenes}
 
     def _scene_members(self, name: str, blade: BladeSettings, scene: str, changes: Mapping[str, float]) -> dict[str, Settings]:
-        chosen = entry_with(self.settings.scene_designs.entries[scene], changes).scene()
-        design = f"{FOLDER}/{name}"
-        members = {NOMINAL: self._settings(blade, scene, chosen, design)}
-        for member, (other, changed) in self._under_tolerances(blade, scene, changes).items():
+        """Settings of the design itself, NOMINAL, and of its members under tolerances."""
+        entry, tolerances, design = self.settings.scene_designs.entries[scene], self.entry.tolerances, f"{FOLDER}/{name}"
+        members = {NOMINAL: self._settings(blade, scene, entry_with(entry, changes).scene(), design)}
+        if tolerances is None:
+            return members
+        spreads, varied = tolerances.spreads, {VariedNumber(SCENE, key): value for key, value in changes.items()}
+        nominal = [nominal_value(number, blade, {**self.scene_numbers[scene], **changes}) for number in spreads]
+        for member, shares in sobol_points(len(spreads), tolerances.members, self.entry.seed).items():
+            other, changed = changed_pair(blade, entry, {**varied, **drawn(spreads, nominal, shares)})
             own = design if other.elastic == blade.elastic else f"member {member} of {design}"
             members[member] = self._settings(other, scene, changed, own)
         return members
@@ -129,21 +133,6 @@ class SearchDesigns:
         chosen = replace(settings.scenes[scene], scene=changed, results=results, stress_history_speeds=())
         return varied_settings(settings, {name: blade}, {scene: chosen})
 
-    def _under_tolerances(
-        self, blade: BladeSettings, scene: str, scene_changes: Mapping[str, float]
-    ) -> dict[str, tuple[BladeSettings, Scene]]:
-        """Blade and scene of each member under tolerances."""
-        tolerances, scene_entry = self.entry.tolerances, self.settings.scene_designs.entries[scene]
-        if tolerances is None:
-            return {}
-        numbers, spreads = {**self.scene_numbers[scene], **scene_changes}, tolerances.spreads
-        design = {VariedNumber(SCENE, key): value for key, value in scene_changes.items()}
-        nominal = [nominal_value(number, blade, numbers) for number in spreads]
-        points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
-        return {
-            member: changed_pair(blade, scene_entry, {**design, **drawn(spreads, nominal, points[member])}) for member in points
-        }
-
 
 def start_value(entry: ShapeKeys, key: str) -> float | None:
     """Value of a dotted key of an entry, for a share or law that is left out one that changes nothing; None without a value."""
@@ -155,15 +144,12 @@ def start_value(entry: ShapeKeys, key: str) -> float | None:
 
 def choice_of(settings: Settings) -> SearchChoice:
     """Search that the section of config.yaml asks for."""
-    designs = designs_of(settings)
-    entry, is_flown = designs.entry, operating_range(settings) is not None
-    constraints = {
-        name: Constraint(each.quantity(is_flown), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
-        for name, each in entry.constraints.items()
+    designs, is_flown = designs_of(settings), operating_range(settings) is not None
+    quantities = {
+        kind: {name: each.chosen(is_flown) for name, each in getattr(designs.entry, kind).items()}
+        for kind in ("objectives", "constraints")
     }
-    objectives = {name: each.quantity(is_flown) for name, each in entry.objectives.items()}
-    variables = tuple(SearchVariable(key, *bounds) for key, bounds in entry.variables.items())
-    return SearchChoice(variables, objectives, constraints, entry.method, entry.seed, tuple(designs.start_values))
+    return SearchChoice(designs.entry.model_copy(update=quantities), tuple(designs.start_values))
 
 
 def designs_of(settings: Settings) -> SearchDesigns:

@@ -41,8 +41,8 @@ class Search:
         settings, designs = self.settings, designs_of(self.settings)
         start = Evaluation(settings, Path(), one_by_one, 1).runs(START, None)
         entries = [plain(designs.start), *(plain(settings.scene_designs.entries[scene]) for scene in designs.scenes)]
-        tolerances = designs.entry.tolerances and plain(designs.entry.tolerances)
-        return to_plain([start, choice_of(settings), tolerances, operating_range(settings), entries])
+        choice = choice_of(settings)
+        return to_plain([start.made_of, plain(choice.entry), choice.start, operating_range(settings), entries])
 
     def budget(self, wildcards: Any) -> list[int]:
         """Number of designs of each round."""

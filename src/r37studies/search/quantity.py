@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from r37core.base.units import unit_of
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator
 
 if TYPE_CHECKING:
     # the workflow imports it before it knows whether there is a search
     import xarray as xr
+
+    from .section import QuantitySection
 
 MINIMISED = (
     "length_most_revolutions_rad_s", "length_some_revolutions_rad_s", "largest_median_stress_pa", "largest_goodman_share",
@@ -24,29 +24,26 @@ MINIMISED = (
 )  # fmt: skip
 """Columns of ranking.csv that searches can minimise."""
 
-STRUCTURE_MEASURES = {
-    "mass_kg": "mass of the blade",
-    "frequency_hz": "frequency of a mode at rest, or at a speed",
-    "frequency_margin_percent": "distance of a mode's frequency from an engine order at a speed",
-    "crossing_margin_percent": "distance of a mode's crossing with an engine order from a speed",
-    "clearance_loss_m": "largest loss of clearance as the tip swings along a mode",
-    "static_stress_pa": "largest stress by rotation alone, in the region of the stress",
+STRUCTURE_MEASURES: dict[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
+    "mass_kg": ("mass of the blade", (), ()),
+    "frequency_hz": ("frequency of a mode at rest, or at a speed", ("mode",), ("speed_rad_s",)),
+    "frequency_margin_percent": (
+        "distance of a mode's frequency from an engine order at a speed",
+        ("mode", "engine_order", "speed_rad_s"),
+        (),
+    ),
+    "crossing_margin_percent": (
+        "distance of a mode's crossing with an engine order from a speed",
+        ("mode", "engine_order", "speed_rad_s"),
+        (),
+    ),
+    "clearance_loss_m": ("largest loss of clearance as the tip swings along a mode", ("mode",), ()),
+    "static_stress_pa": ("largest stress by rotation alone, in the region of the stress", (), ("speed_rad_s",)),
 }
-"""Measure that needs no simulation -> what it is, in words."""
+"""Measure that needs no simulation -> what it is, in words; keys that have to stand beside it, and those that may."""
 
-MEASURES = (*MINIMISED, *STRUCTURE_MEASURES)
-"""All measures."""
-
-NEEDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    **dict.fromkeys(MINIMISED, (("scenes",), ())),
-    "mass_kg": ((), ()),
-    "frequency_hz": (("mode",), ("speed_rad_s",)),
-    "frequency_margin_percent": (("mode", "engine_order", "speed_rad_s"), ()),
-    "crossing_margin_percent": (("mode", "engine_order", "speed_rad_s"), ()),
-    "clearance_loss_m": (("mode",), ()),
-    "static_stress_pa": ((), ("speed_rad_s",)),
-}
-"""Measure -> keys that have to stand beside it, and those that may."""
+MEASURES = {**dict.fromkeys(MINIMISED, ("", ("scenes",), ())), **STRUCTURE_MEASURES}
+"""The same of all measures."""
 
 FATIGUE_MEASURES = tuple(name for name in MINIMISED if "goodman" in name)
 """Measures that need fatigue among a scene's results."""
@@ -60,39 +57,6 @@ OF_ENDED_RUNS = ("largest_median_stress_pa", "largest_rms_m", "largest_goodman_s
 _RESAMPLES, _SEED = 200, 0
 
 
-@dataclass(frozen=True)
-class Quantity:
-    """A `measure` of a design: of contact the worst of some `scenes`, else of a `mode`, an `engine_order` and a `speed`.
-
-    `speed` in rad/s; `quantile`: of members under tolerances, in place of the nominal value.
-    """
-
-    measure: str
-    scenes: tuple[str, ...] = ()
-    mode: str | None = None
-    engine_order: int | None = None
-    speed: float | None = None
-    quantile: float | None = None
-
-    @property
-    def unit(self) -> str:
-        """Unit of the values, as the name of the measure ends."""
-        return unit_of(self.measure)
-
-
-@dataclass(frozen=True)
-class DesignStructure:
-    """Numbers of a design without contact. `volume` (m3), `density` (kg/m3).
-
-    `campbell`: its Campbell diagram; `static_stress` (Pa) by rotation at the speeds (rad/s) that are asked for.
-    """
-
-    volume: float
-    density: float
-    campbell: xr.Dataset
-    static_stress: Mapping[float, float]
-
-
 def static_stress(stress: StressOperator, stiffening: np.ndarray, speeds: Sequence[float]) -> dict[float, float]:
     """Largest von Mises stress (Pa) by rotation alone at each speed (rad/s); `stiffening` as rotation_amplitudes has it."""
     still = np.zeros((len(speeds), stress.coordinates))
@@ -100,19 +64,23 @@ def static_stress(stress: StressOperator, stiffening: np.ndarray, speeds: Sequen
     return dict(zip(speeds, stress.max_von_mises(np.concatenate([still, amplitudes], axis=1)).tolist(), strict=True))
 
 
-def structure_value(quantity: Quantity, structure: DesignStructure, highest_speed: float) -> float:
-    """The value of a quantity without contact; `highest_speed` (rad/s): where the static stress is taken that names no speed.
+def structure_value(
+    quantity: QuantitySection, mass: float, campbell: xr.Dataset, static_stress: Mapping[float, float], highest_speed: float
+) -> float:
+    """The value of a quantity without contact.
 
-    Raises KeyError for a mode or engine order that the Campbell diagram does not have.
+    `mass` (kg) and the Campbell diagram of the blade; `static_stress` (Pa) by rotation at the speeds (rad/s) that are asked
+    for; `highest_speed` (rad/s): where it is taken that names no speed. Raises KeyError for a mode or engine order that the
+    diagram does not have.
     """
     if quantity.measure == "mass_kg":
-        return structure.density * structure.volume
+        return mass
     if quantity.measure == "static_stress_pa":
-        return structure.static_stress[quantity.speed or highest_speed]
-    mode_data = structure.campbell.sel(mode=quantity.mode)
+        return static_stress[quantity.speed_rad_s or highest_speed]
+    mode_data = campbell.sel(mode=quantity.mode)
     if quantity.measure == "clearance_loss_m":
         return -float(mode_data["dynamic_clearance"].min())
-    speed = quantity.speed or 0.0
+    speed = quantity.speed_rad_s or 0.0
     if quantity.measure == "crossing_margin_percent":
         crossing = float(mode_data["crossing_speed"].sel(engine_order=quantity.engine_order))
         # a mode that never meets the engine order is as far from it as can be
@@ -126,7 +94,7 @@ def structure_value(quantity: Quantity, structure: DesignStructure, highest_spee
 
 
 def contact_value(
-    quantity: Quantity, nominal: Mapping[str, Mapping[str, float]], members: Mapping[str, Sequence[Mapping[str, float]]]
+    quantity: QuantitySection, nominal: Mapping[str, Mapping[str, float]], members: Mapping[str, Sequence[Mapping[str, float]]]
 ) -> tuple[float, float]:
     """Value of a quantity of contact and its standard deviation, NaN where that is not known: of the worst scene.
 
@@ -134,13 +102,14 @@ def contact_value(
     deviation is that over samples drawn from the members.
     """
     scene_values = []
-    for scene in quantity.scenes:
-        if quantity.quantile is None:
+    quantile = getattr(quantity, "quantile", None)
+    for scene in quantity.scenes or ():
+        if quantile is None:
             scatter = f"{quantity.measure.removesuffix('_rad_s')}_scatter_rad_s"
             scene_values.append((_run_value(quantity.measure, nominal[scene]), nominal[scene].get(scatter, math.nan)))
         else:
             member_values = [_run_value(quantity.measure, member) for member in members[scene]]
-            scene_values.append(_quantile(member_values, quantity.quantile))
+            scene_values.append(_quantile(member_values, quantile))
     return max(scene_values, key=lambda value: value[0])
 
 

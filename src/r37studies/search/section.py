@@ -1,16 +1,23 @@
 """search of config.yaml: a blade that is better than the one at hand."""
 
-from typing import Annotated, Literal
+import math
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field
 
-from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
+from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, plain, refused
 from r37core.config.spread import Bounds, MemberCount, Number, Spreads
 
-from .quantity import MEASURES, MINIMISED, NEEDS, STRUCTURE_MEASURES, Quantity
+from .quantity import MEASURES, MINIMISED, STRUCTURE_MEASURES
+
+OPERATING_MEASURE = "exceedance_integral_operating_rad_s"
+"""Measure of a quantity without one, where there is an operating range."""
 
 COLUMNS = ("design", "round", "feasible", "not_dominated", "order", "refused")
 """Columns of search.csv next to those of variables, objectives and constraints."""
+
+
+_PLACES = ("scenes", "mode", "engine_order", "speed_rad_s")
 
 
 class QuantitySection(Section):
@@ -19,7 +26,7 @@ class QuantitySection(Section):
     measure: Literal[tuple(MEASURES)] = Field(  # type: ignore[valid-type]
         default="exceedance_integral_rad_s",
         description="Number of a design: of contact a column of ranking.csv; "
-        + "; ".join(f"{name}, {words}" for name, words in STRUCTURE_MEASURES.items()),
+        + "; ".join(f"{name}, {words}" for name, (words, _, _) in STRUCTURE_MEASURES.items()),
     )
     scenes: Names | LeftOut = Field(default=None, description="Scenes of a contact measure; the worst counts")
     mode: str | LeftOut = Field(default=None, description="Mode of a modal measure, such as 1B")
@@ -29,18 +36,22 @@ class QuantitySection(Section):
     )
 
     def _check(self) -> None:
-        named = [key for key in ("scenes", "mode", "engine_order", "speed_rad_s") if getattr(self, key) is not None]
-        needed, allowed = NEEDS[self.measure]
+        named = [key for key in _PLACES if getattr(self, key) is not None]
+        _, needed, allowed = MEASURES[self.measure]
         if missing := [key for key in needed if key not in named]:
             raise refused((), f"{self.measure} without {', '.join(missing)}", f"{' and '.join(needed)} beside it")
         if strange := [key for key in named if key not in (*needed, *allowed)]:
             raise refused((strange[0],), f"{strange[0]} with {self.measure}", "the key left out")
 
-    def quantity(self, is_flown: bool) -> Quantity:
+    @property
+    def made_of(self) -> dict[str, Any]:
+        """All that the value of a design follows from, bounds left out."""
+        return {key: getattr(self, key, None) for key in ("measure", *_PLACES, "quantile")}
+
+    def chosen(self, is_flown: bool) -> Self:
         """The quantity that is computed; without a measure that over the operating range, where there is one."""
-        measure = "exceedance_integral_operating_rad_s" if is_flown and "measure" not in self.model_fields_set else self.measure
-        scenes, quantile = tuple(self.scenes or ()), getattr(self, "quantile", None)
-        return Quantity(measure, scenes, self.mode, self.engine_order, self.speed_rad_s, quantile)
+        default = {} if "measure" in self.model_fields_set or not is_flown else {"measure": OPERATING_MEASURE}
+        return self.model_copy(update=default)
 
 
 class ObjectiveSection(QuantitySection):
@@ -66,15 +77,22 @@ class ConstraintSection(QuantitySection):
 
     def _check(self) -> None:
         super()._check()
-        for keys in (("at_least", "at_least_percent"), ("at_most", "at_most_percent")):
-            if all(getattr(self, key) is not None for key in keys):
+        ends = ("at_least", "at_most"), ("at_least_percent", "at_most_percent")
+        limits = plain(self)
+        for keys in zip(*ends, strict=True):
+            if all(key in limits for key in keys):
                 raise refused((keys[1],), " and ".join(keys), "one of them")
-        for lowest, highest in (("at_least", "at_most"), ("at_least_percent", "at_most_percent")):
-            low, high = getattr(self, lowest), getattr(self, highest)
-            if low is not None and high is not None and low > high:
-                raise refused((lowest,), f"{low:g}", f"not above {highest} ({high:g})")
-        if all(getattr(self, key) is None for key in ("at_least", "at_most", "at_least_percent", "at_most_percent")):
+        for lowest, highest in ends:
+            if lowest in limits and highest in limits and limits[lowest] > limits[highest]:
+                raise refused((lowest,), f"{limits[lowest]:g}", f"not above {highest} ({limits[highest]:g})")
+        if not any(key in limits for keys in ends for key in keys):
             raise refused((), "no bound", "at_least or at_most, or one of them in percent of the start")
+
+    def bounds(self, start: float) -> tuple[float, float]:
+        """Lowest and highest value, infinite without a bound, where the start has the value `start`."""
+        low = self.at_least if self.at_least_percent is None else 0.01 * self.at_least_percent * start
+        high = self.at_most if self.at_most_percent is None else 0.01 * self.at_most_percent * start
+        return -math.inf if low is None else low, math.inf if high is None else high
 
 
 class SearchTolerances(Spreads):

@@ -57,27 +57,23 @@ class Design:
 
 def shares(variables: Sequence[SearchVariable], values: Sequence[Sequence[float]]) -> np.ndarray:
     """Where designs [design, variable] lie in the ranges: 0 at the lowest values, 1 at the highest."""
-    lowest, width = _ranges(variables)
-    return (np.asarray(values, dtype=float).reshape(-1, len(variables)) - lowest) / width
+    lowest, highest = _bounds(variables)
+    return (np.asarray(values, dtype=float).reshape(-1, len(variables)) - lowest) / (highest - lowest)
 
 
 def designs_at(variables: Sequence[SearchVariable], points: np.ndarray) -> list[tuple[float, ...]]:
     """Values of the designs at `points` (shares of the ranges), in decimal steps of at most 1e-4 of each range, within it."""
-    lowest, width = _ranges(variables)
+    lowest, highest = _bounds(variables)
+    width = highest - lowest
     # a range of 20 has steps of 0.001, one of 0.3 of 0.00001
     decimals = [4 - math.floor(math.log10(each)) for each in width]
-    return [
-        tuple(
-            min(max(round(float(value), places), variable.lowest), variable.highest)
-            for value, places, variable in zip(lowest + point * width, decimals, variables, strict=True)
-        )
-        for point in points
-    ]
+    values = [list(map(round, (lowest + point * width).tolist(), decimals)) for point in points]
+    return [tuple(each) for each in np.clip(np.reshape(values, (-1, len(variables))), lowest, highest).tolist()]
 
 
-def _ranges(variables: Sequence[SearchVariable]) -> tuple[np.ndarray, np.ndarray]:
-    lowest = np.array([variable.lowest for variable in variables])
-    return lowest, np.array([variable.highest for variable in variables]) - lowest
+def _bounds(variables: Sequence[SearchVariable]) -> np.ndarray:
+    """Lowest and highest values [2, variable]."""
+    return np.array([(variable.lowest, variable.highest) for variable in variables]).T
 
 
 def not_dominated(evaluated: Sequence[Design]) -> list[Design]:

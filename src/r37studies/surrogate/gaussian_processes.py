@@ -44,10 +44,11 @@ class Fit:
     process: Any
     mean: float
     scale: float
-    noise: float
-    points: np.ndarray
-    numbers: np.ndarray
-    variances: np.ndarray
+
+    @property
+    def noise(self) -> float:
+        """Variance of the noise, in squares of the scale."""
+        return 0.0 if self.process is None else float(self.process.kernel_.k2.noise_level)
 
     def at(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mean and standard deviation [point] of the number itself, without its noise."""
@@ -61,18 +62,15 @@ class Fit:
 
     def believing(self, point: np.ndarray) -> Self:
         """Process as if `point` had turned out as expected: what a batch knows of its earlier designs."""
-        if self.process is None:
+        known = self.process
+        if known is None:
             return self
-        expected = self.at(point[None])[0]
-        points, numbers = np.vstack([self.points, point]), np.append(self.numbers, expected)
-        return self._through(points, numbers, np.append(self.variances, 1e-8))
-
-    def _through(self, points: np.ndarray, numbers: np.ndarray, variances: np.ndarray) -> Self:
-        """A process with the same hyperparameters through other numbers."""
-        process = _regressor(self.process.kernel_, variances, optimizer=None)
+        expected = (self.at(point[None])[0] - self.mean) / self.scale
+        # with the same hyperparameters
+        process = library().GaussianProcessRegressor(known.kernel_, alpha=np.append(known.alpha, 1e-8), optimizer=None)
         with _quiet():
-            process.fit(points, (numbers - self.mean) / self.scale)
-        return replace(self, process=process, points=points, numbers=numbers, variances=variances)
+            process.fit(np.vstack([known.X_train_, point]), np.append(known.y_train_, expected))
+        return replace(self, process=process)
 
 
 def fit(points: np.ndarray, numbers: np.ndarray, scatters: np.ndarray, seed: int) -> Fit:
@@ -84,21 +82,20 @@ def fit(points: np.ndarray, numbers: np.ndarray, scatters: np.ndarray, seed: int
     """
     mean, scale = float(numbers.mean()), float(numbers.std())
     if scale <= 1e-12 * max(1.0, abs(mean)):
-        return Fit(None, mean, 0.0, 0.0, points, numbers, np.zeros(len(points)))
-    kernels = library().kernels
+        return Fit(None, mean, 0.0)
+    gp = library()
     variances = 1e-8 + (np.nan_to_num(scatters, nan=0.0) / scale) ** 2
-    kernel = kernels.ConstantKernel(1.0, (0.05, 50.0)) * _matern(points.shape[1]) + kernels.WhiteKernel(1e-3, _NOISES)
-    process = _regressor(kernel, variances, n_restarts_optimizer=RESTARTS, random_state=seed)
+    kernel = gp.kernels.ConstantKernel(1.0, (0.05, 50.0)) * _matern(points.shape[1]) + gp.kernels.WhiteKernel(1e-3, _NOISES)
+    process = gp.GaussianProcessRegressor(kernel, alpha=variances, n_restarts_optimizer=RESTARTS, random_state=seed)
     with _quiet():
         process.fit(points, (numbers - mean) / scale)
-    return Fit(process, mean, scale, float(process.kernel_.k2.noise_level), points, numbers, variances)
+    return Fit(process, mean, scale)
 
 
 def fit_chance(points: np.ndarray, holds: np.ndarray, seed: int) -> Callable[[np.ndarray], np.ndarray]:
     """Probability [point] that something holds at points, from where it did [point] and did not; 1 where it always did."""
     if holds.all() or not holds.any():
-        chance = 1.0 if holds.all() else 0.5
-        return lambda others: np.full(len(others), chance)
+        return lambda others: np.full(len(others), 1.0 if holds.all() else 0.5)
     gp = library()
     kernel = gp.kernels.ConstantKernel(4.0, (0.5, 100.0)) * _matern(points.shape[1])
     classifier = gp.GaussianProcessClassifier(kernel, random_state=seed)
@@ -114,10 +111,6 @@ def fit_chance(points: np.ndarray, holds: np.ndarray, seed: int) -> Callable[[np
 
 def _matern(variables: int) -> Any:
     return library().kernels.Matern([0.5 * math.sqrt(variables)] * variables, _LENGTHS, nu=2.5)
-
-
-def _regressor(kernel: Any, variances: np.ndarray, **options: Any) -> Any:
-    return library().GaussianProcessRegressor(kernel, alpha=variances, **options)
 
 
 @contextmanager

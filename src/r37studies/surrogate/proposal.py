@@ -126,8 +126,7 @@ def _compressed(numbers: np.ndarray, scatters: np.ndarray) -> tuple[np.ndarray, 
 def _next_point(models: Models, taken: np.ndarray, variables: int, generator: np.random.Generator) -> np.ndarray:
     """The most promising of points all over the ranges, of points around the best designs, and at last around the winners."""
     candidates = _sobol(variables, _CANDIDATES, int(generator.integers(2**31)))
-    for spread in (0.1, 0.03):
-        candidates = np.vstack([candidates, _around(models.feasible, spread, generator)])
+    candidates = np.vstack([candidates, *(_around(models.feasible, spread, generator) for spread in (0.1, 0.03))])
     draws = generator.bit_generator.random_raw()
     worth = _worth(models, candidates, taken, draws)
     for spread in (0.05, 0.01):
@@ -176,5 +175,4 @@ def _log_expected(mean: np.ndarray, deviation: np.ndarray, best: float) -> np.nd
 
 def _sobol(variables: int, number: int, seed: int) -> np.ndarray:
     """The first `number` points of a scrambled Sobol sequence, [point, variable]."""
-    doublings = max(0, math.ceil(math.log2(max(number, 1))))
-    return scipy.stats.qmc.Sobol(variables, rng=seed).random_base2(doublings)[:number]
+    return scipy.stats.qmc.Sobol(variables, rng=seed).random_base2((max(number, 1) - 1).bit_length())[:number]
