@@ -2,7 +2,6 @@
 
 import base64
 import gzip
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,16 +9,13 @@ import xarray as xr
 from browser import opened
 from explorer_cases import BLADES, SPEEDS, beside, sweep
 
-import r37studies
 from r37core.config import command_line_document
-from r37core.explorer import page_parts, write_page
+from r37core.explorer import write_page
 from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import load_settings
 from r37core.product.targets import links
 from r37core.time_integration.status import RunStatus
-
-STUDIES = Path(r37studies.__file__).parent
 
 datasets = pytest.fixture(scope="module")(sweep)
 
@@ -388,18 +384,6 @@ def judged(*verdicts):
     numbers |= {"certainty": "", "note": "", "from_rad_s": None, "to_rad_s": None}
     rows = [dict(zip(names, row, strict=True)) | numbers for row in verdicts]
     return {"requirements": {"pairs": [], "requirements": rows}}
-
-
-def test_the_reason_of_a_verdict_stands_on_a_phone(page, datasets, tmp_path):
-    panel = judged(("Ref", "abradable", "fails"))
-    panel["requirements"]["pairs"] = [{"blade": "Ref", "scene": "abradable", "verdict": "fails", "reason": "too long " * 12}]
-    contents = explorer_contents(datasets) | {"panels": panel}
-    parts = page_parts([STUDIES / "requirements/panel.js"])
-    with beside(page, contents, tmp_path / "explorer.html", (390, 844), parts=parts) as other:
-        reason = other.locator("#verdict td:last-child").bounding_box()
-        assert reason["x"] + reason["width"] <= 390
-        other.locator("#verdict button").click()
-        assert other.locator("#verdict tr.chosen").count() == 1
 
 
 def test_a_finger_has_room(page, datasets, tmp_path):

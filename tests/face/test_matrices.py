@@ -1,17 +1,30 @@
 """Matrices that are exported, and imported again."""
 
+import re
+import shutil
+import warnings
+import zipfile
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 import scipy.linalg as la
+import scipy.sparse as sp
+from defaults import Orientation
 from import_defaults import MatricesSource
 from test_contact_patches import PATCHES, SPEEDS, every, patched  # noqa: F401
+from test_exports import NAMES, NOTHING, SMALL, SPARSE, _member, directory, reduced_files, write_small  # noqa: F401
+from test_import_parts import ANGLES
 
 from r37core.fem.orientation import OURS
+from r37core.results.campbell import campbell_diagram
 from r37core.rom.contact_weights import contact_along, mean_fields
+from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import BoundaryError
-from r37imports.importing.matrices_in import import_matrices
+from r37imports.importing.matrices_in import import_matrices, wording
+from r37imports.importing.matrix_file import read_matrix
+from r37imports.refusal import ImportRefused, MeshWarning
 from r37studies.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 
 
@@ -57,3 +70,270 @@ def test_matrices_without_the_nodes_for_patches(model, reduction, tmp_path):
     single = replace(PATCHES, nodes=1)
     with pytest.raises(BoundaryError, match=r"on the 1 nodes .* allowed: none .* because a patch is made of two or more"):
         contact_along(np.array([[0.25, 0.0, 0.0]]), np.array([0.5]), single)
+
+
+def test_full_matrices_come_back(directory, model, boundary, reduction):
+    """The same reduced model to round-off: frequencies, names, contact rows."""
+    assert {file.name for file in directory.iterdir()} == NAMES
+    again = import_matrices(MatricesSource(str(directory), OURS), boundary, reduction)
+    speeds = np.array([0.0, 700.0, 1700.0])
+    ours, theirs = (campbell_diagram(m, speeds, 6) for m in (model, again))
+    assert theirs.mode_names == ours.mode_names
+    np.testing.assert_allclose(theirs.frequencies, ours.frequencies, rtol=1e-7)
+    contact, wanted = contact_model(again, "pressure_edge"), contact_model(model, "pressure_edge")
+    np.testing.assert_allclose(contact.radius, wanted.radius, rtol=1e-12)
+    compliance, expected = (
+        np.einsum("anj,bnj,j->abn", m.displacement_operator, m.displacement_operator, 1.0 / m.squared_frequencies)
+        for m in (contact, wanted)
+    )
+    np.testing.assert_allclose(compliance, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
+
+
+def test_reduced_matrices_come_back_in_any_unit(reduced_files, model, boundary, reduction):
+    assert {file.name for file in reduced_files.iterdir()} == NAMES
+    again = import_matrices(MatricesSource(str(reduced_files), OURS), boundary, reduction)
+    np.testing.assert_allclose(again.mass, model.mass, atol=1e-12 * np.abs(model.mass).max())
+    np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
+    # patches lie within the tip, so their places do not say it
+    np.testing.assert_allclose(again.contact_tip_lengths, model.contact_tip_lengths, rtol=1e-12)
+    # tonnes and N/mm, as programs in millimetres have them
+    again = import_matrices(MatricesSource(str(reduced_files), OURS, "t", "N/mm"), boundary, reduction)
+    np.testing.assert_allclose(again.mass, 1e3 * model.mass, atol=1e-9 * np.abs(model.mass).max())
+    expected = 1e3 * model.stiffness_at(900.0)
+    np.testing.assert_allclose(again.stiffness_at(900.0), expected, atol=1e-6 * np.abs(model.stiffness).max())
+
+
+def test_reduced_matrices_in_other_axes(model, boundary, reduction, tmp_path):
+    """Rotor axis along -y, blade along z, mm, .npz: taken as they are, and turned."""
+    turn = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])  # file's axes in rows of ours
+    nodes = len(model.contact_nodes.nodes)
+    whole = np.eye(model.size)
+    whole[: 3 * nodes, : 3 * nodes] = np.kron(np.eye(nodes), turn)
+    for name, matrix in {"M": model.mass, **{f"K_{s:g}": model.stiffness_at(s) for s in (0.0, 800.0, 1600.0)}}.items():
+        np.savez(tmp_path / f"{name}.npz", whole.T @ matrix @ whole)
+    points = model.contact_nodes.points
+    rows = np.arange(3 * nodes).reshape(-1, 3)
+    header = "x,y,z,dof_x,dof_y,dof_z"
+    np.savetxt(tmp_path / "boundary.csv", np.hstack([1e3 * points @ turn, rows]), delimiter=",", header=header, comments="")
+    orientation = Orientation("mm", rotor_axis=tuple(turn[2]), radial=tuple(turn[0]), rotation="negative")
+    again = import_matrices(MatricesSource(str(tmp_path), orientation), boundary, reduction)
+    np.testing.assert_allclose(again.modes(1000.0, 10)[0], model.modes(1000.0, 10)[0], rtol=1e-8)
+    np.testing.assert_allclose(again.tip_lines["pressure_edge"].points, points, atol=1e-12)
+    rows_again, rows_ours = (contact_model(m, "pressure_edge").displacement_operator for m in (again, model))
+    np.testing.assert_allclose(np.abs(rows_again[:, :, :6]), np.abs(rows_ours[:, :, :6]), rtol=1e-5, atol=1e-6)
+
+
+@pytest.mark.parametrize(("factor", "outcome"), [(1.0, "said"), (1e3, "warned"), (1e-3, "warned"), (1e-20, "refused")])
+def test_the_first_frequency_shows_a_wrong_unit(model, boundary, reduction, tmp_path, factor, outcome):
+    """Of the reference blade 840 Hz; the frequency follows the root of the stiffness."""
+    changed = replace(model, stiffness=factor * model.stiffness, geometric_stiffness=factor * model.geometric_stiffness)
+    first = model.modes(0.0, 1)[0][0] / (2.0 * np.pi)
+    write_reduced_matrices(changed, (0.0, 1000.0, 2000.0), tmp_path)
+    source = MatricesSource(str(tmp_path), OURS)
+    said = re.escape(f"the first frequency at rest is {first * factor**0.5:.4g} Hz")
+    if outcome == "said":
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            assert re.match(said, wording(import_matrices(source, boundary, reduction)))
+    elif outcome == "warned":
+        with pytest.warns(MeshWarning, match=rf"{said}, with a tip of 56\.1 mm; .* look at mass_unit"):
+            import_matrices(source, boundary, reduction)
+    else:
+        with pytest.raises(ImportRefused, match=rf"{re.escape(tmp_path.name)}: {said}"):
+            import_matrices(source, boundary, reduction)
+
+
+def test_unsuitable_matrices_are_refused(boundary, reduction, tmp_path):
+    def refused(message, **files):
+        folder = tmp_path / str(len(list(tmp_path.iterdir())))
+        folder.mkdir()
+        source = write_small(folder, "x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,2\n", **files)
+        with pytest.raises(ImportRefused, match=message):
+            import_matrices(source, boundary, reduction)
+
+    refused("found K_<speed> at 100, 200, 300 rad/s; allowed: at 0 and two", K_0=None, K_300=10 * SMALL)
+    for name in ("inf", "1e200", "nan", "-200", "fast"):
+        named = {"K_200": None, f"K_{name}": SMALL}
+        refused(rf"K_{name}\.npz: found a name without a speed; allowed: .* from 0 to 1e\+06", **named)
+    for low, high in (("1e-3", "200"), ("200", "200.0001")):
+        files = {"K_100": None, "K_200": None, f"K_{low}": SMALL, f"K_{high}": SMALL}
+        refused(rf"found K_<speed> at 0, {float(low):.9g}, {float(high):.9g} .* 0\.1 to 0\.99 times", **files)
+    files = {"K_100": None, "K_200": None, "K_1": SMALL, "K_2": SMALL}
+    refused("found K_<speed> up to 2 rad/s, for a blade that is needed up to 2000 .* 100 or more", **files)
+    refused("is not linear in the squared speed .*, to twelve digits", K_200=7 * SMALL)
+    refused("matrices differ in size: 24, 3, 24, 24", K_0=SMALL[:3, :3])
+    for shape in ((24,), (24, 24, 1), (24, 25), ()):
+        refused(rf"K_0\.npz: found an array of shape {re.escape(str(shape))}; allowed: a square matrix", K_0=np.ones(shape))
+    for kind in ("complex128", "bool", "str"):
+        refused(rf"M\.npz: found entries of kind {kind}\d*; allowed: real numbers", M=SMALL.astype(kind))
+    refused("the mass is not positive .lowest eigenvalue -1 kg.; leave no massless", M=SMALL - np.diag(23 * [0.0] + [28.0]))
+    free = np.diag([0.0, *np.arange(5.0, 28.0)])
+    refused("the stiffness at rest is not positive .* clamp the root", K_0=free, K_100=free + SMALL, K_200=free + 4 * SMALL)
+    refused("found matrices of 19 rows; allowed: 20", **{name: SMALL[:19, :19] for name in ("M", "K_0", "K_100", "K_200")})
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"indices": SPARSE.indices - 30}, "indices must be >= 0"),
+        ({"indices": SPARSE.indices + 10**6}, "indices must be < 24"),
+        ({"indptr": 1000 * SPARSE.indptr}, "index pointer"),
+        ({"shape": np.array([10**9, 10**9])}, "index pointer size"),
+    ],
+)
+def test_damaged_sparse_matrices(tmp_path, changes, message):
+    """Indices out of range would end the process, not the call."""
+    parts = {name: getattr(SPARSE, name) for name in ("indices", "indptr", "data", "shape")} | {"format": b"csr"}
+    np.savez(tmp_path / "M.npz", **parts | changes)
+    with pytest.raises(ImportRefused, match=rf"^M\.npz: cannot be read as a matrix of Matrix Market or SciPy \(.*{message}"):
+        read_matrix(tmp_path / "M.npz")
+
+
+@pytest.mark.parametrize("layout", ["csr", "csc", "coo", "dia", "bsr"])
+def test_every_sparse_layout_is_read(tmp_path, layout):
+    sp.save_npz(tmp_path / "M.npz", SPARSE.asformat(layout))
+    assert abs(read_matrix(tmp_path / "M.npz") - SPARSE).max() == 0.0
+
+
+@pytest.mark.parametrize(
+    ("head", "message"),
+    [
+        ("coordinate real symmetric\n1000000000 1000000000 1", "found 1000000000 rows and only 1 entries; allowed: no empty"),
+        ("coordinate real general\n24 24 1000000000000", "its header says 1000000000000 entries, for which the file is too"),
+        ("array real symmetric\n100000000 100000000", "its header says 5000000050000000 entries, for which the file is too"),
+        ("coordinate complex general\n1 1 1", "found entries of kind complex; allowed: real numbers"),
+    ],
+)
+def test_headers_that_promise_too_much(tmp_path, head, message):
+    """Memory is taken by the header's numbers: a matrix of 1e9 rows took 24 s to its MemoryError."""
+    (tmp_path / "M.mtx").write_text(f"%%MatrixMarket matrix {head}\n1 1 1.0\n")
+    with pytest.raises(ImportRefused, match=rf"^M\.mtx: {message}"):
+        read_matrix(tmp_path / "M.mtx")
+
+
+def test_a_small_matrix_fits_its_header_and_an_archive_has_one_matrix(tmp_path):
+    """The shortest entries of Matrix Market that there can be."""
+    for text in ("array integer symmetric\n2 2\n2\n1\n2\n", "coordinate integer symmetric\n2 2 2\n1 1 3\n2 2 3\n"):
+        (tmp_path / "M.mtx").write_text(f"%%MatrixMarket matrix {text}")
+        assert read_matrix(tmp_path / "M.mtx").shape == (2, 2)
+    np.savez(tmp_path / "M.npz", SMALL, 2.0 * SMALL)
+    with pytest.raises(ImportRefused, match=r"^M\.npz: found 2 arrays \(arr_0, arr_1\); allowed: one, or a sparse matrix"):
+        read_matrix(tmp_path / "M.npz")
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (NOTHING.replace(b"(0,)", b"(99999, 99999)"), r"found an array of shape \(99999, 99999\); allowed: at most"),
+        (_member(np.array([{}])), "found objects of Python in its array arr_0; allowed: numbers$"),
+        (b"no array", r"cannot be read as a matrix of Matrix Market or SciPy \(.*magic"),
+    ],
+)
+def test_an_archive_is_not_unpacked_before_its_shape_is_known(tmp_path, monkeypatch, content, message):
+    with zipfile.ZipFile(tmp_path / "M.npz", "w") as archive:
+        archive.writestr("arr_0.npy", content)
+    monkeypatch.setattr(np, "load", None)
+    with pytest.raises(ImportRefused, match=rf"^M\.npz: {message}"):
+        read_matrix(tmp_path / "M.npz")
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ("x,y,z\n0.2,0,0\n", "found columns x, y, z; allowed: x, y, z, dof_x, dof_y, dof_z"),
+        ("x,y,z,dof_x,dof_y,dof_z\n", "found no contact nodes; allowed: one or more rows below the names of the columns"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,2\n0.2,0,1,3,4,\n", r"boundary\.csv:3: each row must have three coordinates"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,1.5\n", r"boundary\.csv:2: each row must have"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,2\n0.2,0,0,3,4,5\n", "two contact nodes lie at the same place"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,99\n", "must name 3 different rows from 0 to 23"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,1\n", "must name 3 different rows from 0 to 23"),
+    ],
+)
+def test_unsuitable_tables_are_refused(boundary, reduction, tmp_path, table, message):
+    with pytest.raises(ImportRefused, match=message) as refusal:
+        import_matrices(write_small(tmp_path, table), boundary, reduction)
+    assert refusal.value.key == "matrices"
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "message"),
+    [
+        (lambda nodes: 1e3 * nodes, "length_unit", r"24\d to 2\d\d m from the rotor axis .*length_unit m.* does not fit"),
+        (lambda nodes: 1e-3 * nodes, "length_unit", r"length_unit m"),
+        (lambda nodes: nodes + np.array([1e9, 0, 0]), "length_unit", r"1e\+09 to 1e\+09 m from the rotor axis"),
+        (lambda nodes: nodes * [0, 0, 1], "length_unit", "0 to 0 m from the rotor axis .* rotor_axis or axis_point"),
+        (lambda nodes: nodes[:, [1, 0, 2]], "radial", "the contact nodes' middle lies at .* degrees round the axis"),
+        (lambda nodes: nodes[::-1], "matrices", "the contact nodes run upstream; list them from the leading"),
+        (lambda nodes: nodes[[0, 2, 1, *range(3, len(nodes))]], "matrices", "contact node 3 does not lie beyond"),
+        (lambda nodes: nodes[np.argsort(np.arange(len(nodes)) % 2, kind="stable")], "matrices", "does not lie beyond"),
+        (lambda nodes: nodes * [1, 1, 0], "matrices", "leading and trailing edge lie at the same z"),
+    ],
+)
+def test_contact_nodes_of_another_size_or_order_are_refused(reduced_files, boundary, reduction, tmp_path, change, key, message):
+    shutil.copytree(reduced_files, tmp_path, dirs_exist_ok=True)
+    table = pd.read_csv(tmp_path / "boundary.csv")
+    table[["x", "y", "z"]] = change(table[["x", "y", "z"]].to_numpy())
+    table.to_csv(tmp_path / "boundary.csv", index=False)
+    with pytest.raises(ImportRefused, match=rf"^{tmp_path}: boundary\.csv: .*{message}") as refusal:
+        import_matrices(MatricesSource(str(tmp_path), OURS), boundary, reduction)
+    assert refusal.value.key == key
+
+
+def test_lengths_of_tip_are_optional_and_above_zero(reduced_files, boundary, reduction, tmp_path):
+    shutil.copytree(reduced_files, tmp_path, dirs_exist_ok=True)
+    table, source = pd.read_csv(tmp_path / "boundary.csv"), MatricesSource(str(tmp_path), OURS)
+    table.drop(columns="tip_length").to_csv(tmp_path / "boundary.csv", index=False)
+    assert import_matrices(source, boundary, reduction).contact_tip_lengths.sum() == pytest.approx(
+        table["tip_length"].sum(), rel=0.2
+    )
+    table.loc[2, "tip_length"] = 0.0
+    table.to_csv(tmp_path / "boundary.csv", index=False)
+    with pytest.raises(ImportRefused, match=r"boundary\.csv:4: each row must have .* tip_length, a length above 0"):
+        import_matrices(source, boundary, reduction)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e9])
+def test_a_matrix_is_judged_whatever_its_unit(tmp_path, size):
+    """Symmetric to a part in 1e8 of its largest entry, which is a number above 0."""
+    matrix = size * SMALL
+
+    def beside(share):
+        return np.where(np.eye(24, k=1) > 0.0, share * matrix.max(), matrix)
+
+    np.savez(tmp_path / "M.npz", beside(1e-9))
+    assert read_matrix(tmp_path / "M.npz").shape == (24, 24)
+    broken = {"not symmetric": [beside(1e-6)], "some are no numbers": [beside(np.inf), beside(np.nan)]}
+    for message, cases in (broken | {"all entries are 0": [0.0 * matrix]}).items():
+        for case in cases:
+            np.savez(tmp_path / "M.npz", case)
+            with pytest.raises(ImportRefused, match=rf"^M\.npz: .*{message}"):
+                read_matrix(tmp_path / "M.npz")
+
+
+@pytest.mark.parametrize(
+    ("header", "message"),
+    [
+        ("", r"^M\.mtx: cannot be read as a matrix of Matrix Market or SciPy \(.*banner\.\)$"),
+        (
+            "%%MatrixMarket matrix coordinate real general\n",
+            "not symmetric; allowed: both triangles, or one with `symmetric` in",
+        ),
+    ],
+)
+def test_matrices_of_other_programs(tmp_path, header, message):
+    """Without the first line, or with one triangle in a file that says it has both."""
+    rows = "24 24 47\n" + "".join(f"{i} {i} 4.0\n" for i in range(1, 25)) + "".join(f"{i + 1} {i} 1.0\n" for i in range(1, 24))
+    (tmp_path / "M.mtx").write_text(header + rows)
+    with pytest.raises(ImportRefused, match=message):
+        read_matrix(tmp_path / "M.mtx")
+    (tmp_path / "M.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n" + rows)
+    assert read_matrix(tmp_path / "M.mtx").sum() == 24 * 4.0 + 2 * 23
+
+
+def test_matrices(model, boundary, reduction, tmp_path):
+    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
+    wrong = MatricesSource(str(tmp_path), Orientation("m", (0, 0, 1), (1, 0, 0), "positive"))
+    with pytest.raises(ImportRefused, match=rf"boundary\.csv: found the tip's {ANGLES}") as refusal:
+        import_matrices(wrong, boundary, reduction)
+    assert refusal.value.key == "rotation"
+    import_matrices(replace(wrong, sense_check=False), boundary, reduction)

@@ -15,7 +15,7 @@ from itertools import chain
 
 import pytest
 import yaml
-from conftest import edited_configuration
+from conftest import CHECKOUT, edited_configuration
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -137,6 +137,23 @@ def test_packages_import_the_core_and_not_each_other(root, package):
             assert other not in MAY_IMPORT or other in (package, *MAY_IMPORT[package]), f"{file} imports {name}"
             if name.startswith("r37studies.") and name.split(".")[1] in FOLDERS and package == "r37studies":
                 assert name.split(".")[1] == file.relative_to(folder).parts[0], f"{file} imports {name}"
+
+
+ROOMS = {"core": "r37core", "studies": "r37studies", "imports": "r37imports", "face": "r37"}
+"""Folder of tests -> package that they are of; what stands next to the folders is for all of them."""
+
+
+@pytest.mark.parametrize("room", [*ROOMS, ""])
+def test_tests_import_what_their_package_may(room):
+    """The core's tests run without the other packages; those of studies and imports without each other."""
+    package = ROOMS.get(room, "r37core")
+    known = {file.stem: file.parent.name for file in (CHECKOUT / "tests").rglob("*.py")}
+    for file in (CHECKOUT / "tests" / room).glob("*.py"):
+        for name in imports_of(file):
+            other = name.split(".")[0]
+            assert other not in MAY_IMPORT or other in (package, *MAY_IMPORT[package]), f"{file} imports {name}"
+            of_room = ROOMS.get(known.get(name, ""), "r37core")
+            assert of_room in (package, *MAY_IMPORT[package]), f"{file} imports {name}"
 
 
 def test_classes_have_few_members(root):

@@ -30,7 +30,7 @@ def rules(root):
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]
         steps = re.findall(r'\*\*step\("([\w.]+)"(?:\)|, \*)', block)
         steps += [shared[rule].step] if "**stage(" in block else []
-        needed = re.match(r"use rule step as|(?:(?!\nfor )[\s\S])*scripts/step\.py", block) is not None
+        needed = re.match(r"use rule step as|(?:(?!\nfor )[\s\S])*SCRIPTS / .step\.py", block) is not None
         assert len(steps) == (needed and rule != "step"), rule
         if steps:
             found[rule] = ("step", steps[0])

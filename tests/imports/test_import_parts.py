@@ -27,11 +27,9 @@ from r37core.product.extensions import read_settings
 from r37imports.importing import ends, meshio_reader, tip
 from r37imports.importing.fitting_entry import find_axes
 from r37imports.importing.import_mesh import blade_parameters, import_mesh
-from r37imports.importing.matrices_in import import_matrices
 from r37imports.importing.raw_mesh import RawMesh
 from r37imports.importing.source import matrix_files
 from r37imports.refusal import ImportRefused, MeshWarning
-from r37studies.exports.matrices_out import write_reduced_matrices
 
 
 def raw(mesh):
@@ -229,15 +227,6 @@ def test_a_flat_plate_along_the_axis_tells_nothing(tmp_path, stagger, rotation):
     rotation, side = (str(one.message) for one in said)
     assert rotation.startswith("rotation is taken as given: the tip's stagger of ")
     assert side.startswith("pressure_side is taken as given: the tip's camber of ")
-
-
-def test_matrices(model, boundary, reduction, tmp_path):
-    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
-    wrong = MatricesSource(str(tmp_path), Orientation("m", (0, 0, 1), (1, 0, 0), "positive"))
-    with pytest.raises(ImportRefused, match=rf"boundary\.csv: found the tip's {ANGLES}") as refusal:
-        import_matrices(wrong, boundary, reduction)
-    assert refusal.value.key == "rotation"
-    import_matrices(replace(wrong, sense_check=False), boundary, reduction)
 
 
 def test_a_table_tells_the_stagger_of_its_blade(settings):

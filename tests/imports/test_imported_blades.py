@@ -10,20 +10,12 @@ from box_mesh import write_deck
 from import_defaults import Where
 from workflow_runs import overlay
 
-from r37core.base.plain import to_plain
 from r37core.config import ConfigError
-from r37core.fem.orientation import OURS
 from r37core.figures.declared import FIGURES
-from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
-from r37studies.exports.plan import Exports
-from r37studies.exports.plan import targets as exported_targets
-from r37studies.signals.plan import Signals
-from r37studies.trials import stability, tradeoff
-from r37studies.trials.plan import Trials
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 AXES = {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1], "rotation": "positive"}
@@ -71,31 +63,6 @@ def test_a_mesh_has_what_it_leaves_out_from_its_base(settings_with, config_copy)
     (config_copy / "config/blades.yaml").write_text(wrong)
     with pytest.raises(ConfigError, match=r"Other\.base: found 'Fun'; allowed: another blade .*did you mean Fan"):
         read_settings(config_copy)
-
-
-@pytest.mark.parametrize(
-    ("entry", "config", "signals", "modes"),
-    [
-        (MESH, {}, ["Fan"], ["Fan"]),
-        (MATRICES, {}, ["Fan"], []),
-        (MESH, {"# shapes: {": "shapes: { imported: false }\nsignals: { imported: false }\n#"}, [], []),
-        (MESH, {"# shapes: {": "signals: { speeds_rad_s: [900] }\n#"}, ["Ref", "Fan"], ["Fan"]),
-        (MESH, {"# shapes: {": "signals: { blades: [Ref] }\n#"}, [], ["Fan"]),
-    ],
-)
-def test_a_blade_of_another_program_has_modes_and_signals_at_its_interactions(settings_with, entry, config, signals, modes):
-    """The benchmark's own have none by default."""
-    sweep = Sweep(settings_with(entry, config=config, blades=("Ref", "Fan")))
-    wanted = targets(sweep)
-    runs = [{"blade": blade, "scene": scene} for blade in signals for scene in ("abradable", "direct")]
-    for pattern in ("<results>/{blade}/{scene}/signals.nc", "<results>/figures/contact_force_{blade}__{scene}.png"):
-        assert wanted[pattern] == runs
-    for pattern in ("<results>/shapes/{blade}/modes", "<results>/figures/shapes_{blade}.png"):
-        assert wanted[pattern] == [{"blade": blade} for blade in modes]
-    recorded = Signals(sweep)
-    if not config:
-        inputs = recorded.inputs(SimpleNamespace(blade="Fan", scene="direct"))
-        assert recorded.speeds == [] and inputs["response"] == "<results>/Fan/direct/response.nc"
 
 
 def test_a_mesh_with_strengths_has_fatigue_where_stress_is_wanted(settings_with):
@@ -254,43 +221,3 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     assert stress({"blade": "Given"}) == [] and stress({"blade": "Fan"}) == "<results>/stress.nc"
     monkeypatch.chdir(tmp_path / "config")
     assert all(file.startswith("/") for file in imported.files(fan))
-
-
-def test_what_is_varied_of_matrices(settings_with):
-    """The model is the run's own, and there is no stress."""
-    settings = settings_with(MATRICES)
-    model = {"mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_instants", "stress_region"}
-    reasons = {name.partition("/")[0]: case for name, case in tradeoff.cases(settings).items() if isinstance(case, str)}
-    assert reasons == dict.fromkeys(model, "Fan is given by matrices")
-    inputs = Trials(settings).inputs(SimpleNamespace(preset="tradeoff", case="revolutions/25__direct"))
-    assert inputs == {"contact": "<results>/Fan/contact_pressure_edge.npz", "campbell": "<results>/Fan/campbell.nc"}
-    extremes = stability.cases(settings)
-    assert extremes["mesh_nodes/500__direct"] == "Fan is given by matrices"
-    assert extremes["lobes/5__direct"].model == "pressure_edge"
-
-
-def test_what_is_varied_of_a_mesh(settings_with):
-    settings = settings_with(MESH)
-    case = SimpleNamespace(blade="Fan", model=tradeoff.cases(settings)["revolutions/25__direct"].model.name)
-    assert Trials(settings).shape(case) == {"mesh": "<results>/Fan/mesh.vtu"}
-    assert stability.cases(settings)["mesh_nodes/500__direct"] == "Fan is given by a mesh"
-
-
-def test_plan_of_exports(three):
-    _, sweep = three
-    config = sweep.settings.config.model_copy(update={"speeds": [900.0, 950.5]})
-    exports = Exports(replace(sweep, settings=replace(sweep.settings, config=config)))
-    files = {file.removeprefix("<results>/exports/") for file in filled(exported_targets(exports.sweep))}
-    assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.msh", "Fan/stress_direct", "Given/matrices"} <= files
-    assert not files & {"Fan/surface.step", "Given/mesh.msh", "Given/modes", "Given/stress_direct"}
-    fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")
-    structure = Sweep(sweep.settings)
-    assert structure.whole_blade_model(fan) == "<results>/Fan/whole_blade_pressure_edge.nc"
-    assert structure.boundary(fan)["tip_line"] == "camber"
-    assert exports.orientation(fan)["length_unit"] == "mm"
-    assert exports.orientation(SimpleNamespace(blade="Ref")) == to_plain(OURS)
-    assert exports.choice["mode_speeds"] == (0.0, 2000.0)
-    assert exports.speed_files(fan) == [f"<results>/Fan/direct/speed_{speed}.npz" for speed in ("900", "950.5")]
-    assert exports.sweep.speeds(fan, SimpleNamespace(speeds=exports.speed_files(fan))) == [900.0, 950.5]
-    assert exports.only_worst(fan)
-    assert set(exports.matrix_files(fan)) == {"rom"}

@@ -8,14 +8,7 @@ import numpy as np
 import pytest
 import yaml
 from section_files import CHANNEL, airfoil, csv_text, curve_text, fan, geomturbo_text, sections_of, stacked, turbine
-from workflow_runs import overlay
 
-import r37
-from r37.call_settings import call_of
-from r37.run_folder import write_run
-from r37core.base.plain import to_plain
-from r37core.blade.definition import shape_from_plain
-from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.profile import BladeShapeError, area_and_centroid
 from r37core.blade.section_changes import SpanLaw
 from r37core.config import ConfigError
@@ -27,7 +20,6 @@ from r37core.product.extensions import read_settings
 from r37core.rom.reduce import reduce_blade
 from r37imports.sections.definition import SectionsDefinition
 from r37imports.sections.section_blade import Meridian
-from r37studies.step_file import write_step
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 ENTRY = {"length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0], "rotation": "negative", "material": MATERIAL}
@@ -276,19 +268,6 @@ def test_a_meridian_goes_through_its_points_and_straight_on(order):
     assert Meridian([(0.0, 0.2), (0.04, 0.22)][::order]).radius(z) == pytest.approx(0.2 + 0.5 * z, rel=1e-12)
 
 
-def test_a_geometry_file_and_a_rule_give_the_same_blade(tmp_path):
-    shape = definition_of(turbine(), hub=((0.0, 0.301),), tip=((-0.1, 0.358), (0.1, 0.356)), pressure_forward=False)
-    assert shape_from_plain(to_plain(shape)) == shape
-    made = shape.build(round_edges=True)
-    write_geometry(made, tmp_path / "geometry.nc")
-    again = read_geometry(tmp_path / "geometry.nc")
-    for thickness in (-1.0, 0.3, 1.0):
-        parameters = SHARES, SHARES, np.full(9, thickness)
-        np.testing.assert_array_equal(made.position(*parameters), again.position(*parameters))
-    write_step(again, tmp_path / "surface.step")
-    assert (tmp_path / "surface.step").stat().st_size > 10_000
-
-
 def test_stagger_sweep_and_lean_on_top(settings_with):
     rows = [{"span_percent": span, "sweep_cm": 0.01 * span, "lean_deg": 0.02 * span} for span in (0, 100)]
     family = {"base": "Fan", "vary": {"stagger_deg": [0, 3]}}
@@ -319,34 +298,6 @@ def test_a_law_over_the_span_turns_each_section_by_its_own_angle():
     angles = [after.stagger - before.stagger for before, after in zip(definition.curves, turned.curves, strict=True)]
     np.testing.assert_allclose(angles, np.linspace(0.0, 0.1, 9), atol=1e-5)
     assert turned.sections[0] == definition.sections[0]
-
-
-def test_calls_from_python_know_such_a_blade(project):
-    (project / "fan.csv").write_text(csv_text(fan()))
-    overlay(project, "blades.yaml", yaml.safe_dump({"Fan": {"sections": "fan.csv", "kinematics": "linear", **ENTRY}}))
-    diagram = r37.campbell("Fan", config=project / "config/config.yaml")
-    first = float(diagram["frequency"].isel(speed=0, mode=0))
-    assert 30.0 < first < 200.0 and diagram.attrs["contact"] == "patches"
-    turned = r37.blade("Fan", config=project / "config/config.yaml", stagger_deg=2).settings.definition
-    before = r37.blade("Fan", config=project / "config/config.yaml").settings.definition
-    assert turned.curve(0).stagger - before.curve(0).stagger == pytest.approx(np.radians(2.0), abs=1e-5)
-
-
-def test_the_folder_of_a_call_finds_sections_and_meridians(tmp_path):
-    """Which lie next to the blades.yaml, and not in the folder."""
-    own, folder = tmp_path / "own", tmp_path / "run"
-    own.mkdir()
-    (own / "fan.csv").write_text(csv_text(fan()))
-    (own / "shroud.curve").write_text("0.0 0.449 -0.1\n0.0 0.449 0.1\n")
-    ends = {"hub": "sections", "tip": "shroud.curve"}
-    (own / "blades.yaml").write_text(yaml.safe_dump({"Fan": {"sections": "fan.csv", **ENTRY, **ends}}))
-    call = call_of(
-        "r37.run", [r37.blade("Fan", file=own / "blades.yaml")], ["direct"], {"speeds": [500]}, config=None, fidelity=None
-    )
-    write_run(call, folder)
-    (entry,) = (entry for name, entry in yaml.safe_load((folder / "config/blades.yaml").read_text()).items() if name == "Fan")
-    assert (entry["sections"], entry["tip"]) == (str(own / "fan.csv"), str(own / "shroud.curve")) and entry["hub"] == "sections"
-    assert read_settings(folder).blades["Fan"].definition.tip is not None
 
 
 def section_without_trailing_edge():

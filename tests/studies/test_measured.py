@@ -7,12 +7,10 @@ import pandas as pd
 import pytest
 from conftest import CONFIGURATION
 
-import r37
 from r37core.config import ConfigError, Document
 from r37core.product.extensions import load_settings
 from r37core.stress.gauge import Gauge
 from r37studies.agreement import agreeing, disagreements, disagrees, groups, words
-from r37studies.measured.calibration_plan import Calibrated
 from r37studies.measured.comparison import compared
 from r37studies.measured.file import MOST_SPEEDS, read_points
 from r37studies.measured.measurement_plan import Measured
@@ -315,17 +313,3 @@ FRICTION = {"of_scenes": {"friction.coefficient": {"between": [0.05, 0.3]}}}
 def test_a_calibration_that_cannot_be_done_is_refused(tmp_path, measured, calibrate, told):
     with pytest.raises(ConfigError, match=told):
         configured(tmp_path, measured, calibrate=calibrate)
-
-
-def test_the_contact_length_of_a_rub_test_is_what_is_known_before(tmp_path):
-    depths = np.linspace(20.0, 200.0, 10)
-    rows = "".join(
-        f"{depth:.1f},{0.4 * depth * (1.0 + 0.01 * (-1) ** number):.4f},10,2\n" for number, depth in enumerate(depths)
-    )
-    (tmp_path / "rig.csv").write_text(f"depth_um,force_n,width_mm,thickness_mm\n{rows}")
-    entry = {"scene": "material_abradable"}
-    settings = configured(tmp_path, [entry], calibrate={"rub_test": str(tmp_path / "rig.csv")})
-    ((number, spread),) = settings.made(Calibrated).spreads.items()
-    low, high = spread.log_between
-    fit = r37.lining_from_rub_test(tmp_path / "rig.csv").contact_length
-    assert number.name == "scene.lining.contact_length_m" and (low, high) == pytest.approx(fit.range_95)

@@ -1,12 +1,17 @@
 """Panels of the studies in the explorer."""
 
+from pathlib import Path
+
 import pandas as pd
 from explorer_cases import beside
-from test_explorer import STUDIES, datasets, judged, page  # noqa: F401
+from test_explorer import datasets, judged, page  # noqa: F401  # noqa: F401
 
+import r37studies
 from r37core.explorer import page_parts
 from r37core.explorer.contents import explorer_contents
 from r37studies.designs.panel import contents as design_panel
+
+STUDIES = Path(r37studies.__file__).parent
 
 
 def test_the_map_of_designs_has_the_line_of_a_requirement(page, datasets, tmp_path):
@@ -30,3 +35,15 @@ def test_the_map_of_designs_has_the_line_of_a_requirement(page, datasets, tmp_pa
         other.keyboard.press("ArrowRight")
         assert "1000.3 rad/s" in other.text_content("#now")
         assert [0.5, 0.5, 0.5, 1.5] in other.evaluate(sides)
+
+
+def test_the_reason_of_a_verdict_stands_on_a_phone(page, datasets, tmp_path):
+    panel = judged(("Ref", "abradable", "fails"))
+    panel["requirements"]["pairs"] = [{"blade": "Ref", "scene": "abradable", "verdict": "fails", "reason": "too long " * 12}]
+    contents = explorer_contents(datasets) | {"panels": panel}
+    parts = page_parts([STUDIES / "requirements/panel.js"])
+    with beside(page, contents, tmp_path / "explorer.html", (390, 844), parts=parts) as other:
+        reason = other.locator("#verdict td:last-child").bounding_box()
+        assert reason["x"] + reason["width"] <= 390
+        other.locator("#verdict button").click()
+        assert other.locator("#verdict tr.chosen").count() == 1

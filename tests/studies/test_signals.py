@@ -21,7 +21,6 @@ from r37core.stress.gauge import Gauge
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
-from r37imports.importing.import_mesh import blade_parameters
 from r37studies.gauges import gauge_rows
 from r37studies.signals.dataset import RUNS, signals_dataset
 from r37studies.signals.figures import draw_contact_forces, draw_tip_timing
@@ -63,17 +62,6 @@ def test_gauges_lie_where_they_are_asked_for(blade, mesh):
     rows, places = gauge_rows(mesh, basis, gauges)
     np.testing.assert_allclose(places, there, atol=2e-5)
     np.testing.assert_allclose(rows, 0.0, atol=1e-10)
-
-
-def test_gauges_of_an_imported_mesh(mesh):
-    """Chord, span and sides found from the shape alone: some millimetres from those of the profiles, on the right side."""
-    parameters, normals = blade_parameters(mesh.points, mesh.node_set("root"), mesh.node_set("tip"), True)
-    imported = replace(mesh, parameters=parameters, normals=normals)
-    gauges = [Gauge(*place, 0.0) for place in product((0.1, 0.5, 0.9), (0.1, 0.5, 0.9), ("pressure", "suction"))]
-    ours, theirs = (gauge_rows(each, np.zeros((len(each.points), 3, 1)), gauges)[1] for each in (mesh, imported))
-    assert np.linalg.norm(ours - theirs, axis=1).max() < 3e-3
-    across = np.sum((ours[1::2] - ours[::2]) * (theirs[1::2] - theirs[::2]), axis=1)
-    assert np.all(across > 0.0)
 
 
 def test_a_gauge_along_the_span_of_a_curved_blade(mesh):

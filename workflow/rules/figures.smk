@@ -26,7 +26,7 @@ for figure in FIGURES:
         params:
             **drawing(figure, sweep),
         script:
-            "../scripts/step.py"
+            str(SCRIPTS / "step.py")
 
 
 shaped = [name for name in sweep.drawn["blade"] if name in sweep.meshed_blades]

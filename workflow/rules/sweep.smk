@@ -88,7 +88,7 @@ checkpoint refine:
         choice=sweep.refinement_choice,
         yield_stress=sweep.yield_stress,
     script:
-        "../scripts/step.py"
+        str(SCRIPTS / "step.py")
 
 
 use rule step as response with:

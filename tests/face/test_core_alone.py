@@ -1,0 +1,68 @@
+"""The core without the other packages, their rules and tests: it plans, computes and passes its tests as with them."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+from conftest import CHECKOUT
+from workflow_runs import copy_project, digests, plan, snakemake
+
+LEFT_OUT = shutil.ignore_patterns("studies", "imports", "face", "r37", "r37studies", "r37imports", "__pycache__", "*.egg-info")
+NEEDED = ("src", "tests", "workflow", "config", "profiles", "envs", "docs")
+NEEDED += ("Snakefile", "pyproject.toml", "Makefile", "README.md")
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    """A copy of the checkout that has the core alone."""
+    folder = tmp_path_factory.mktemp("alone")
+    for name in NEEDED:
+        if (CHECKOUT / name).is_dir():
+            shutil.copytree(CHECKOUT / name, folder / name, symlinks=True, ignore=LEFT_OUT)
+        else:
+            shutil.copy(CHECKOUT / name, folder / name)
+    shutil.rmtree(folder / "config")
+    shutil.copytree(CHECKOUT / "tests/config", folder / "config")
+    return folder
+
+
+def jobs_of(folder):
+    return sorted((job.rule, job.outputs, job.inputs) for job in plan(folder))
+
+
+@pytest.mark.slow
+def test_all_blades_has_the_same_jobs(root, alone):
+    ours = jobs_of(alone)
+    assert len(ours) > 100
+    assert ours == jobs_of(root)
+
+
+@pytest.mark.slow
+def test_a_sweep_has_the_same_bits(alone, tmp_path):
+    """Two speeds of two blades, all that all_blades makes of them but pictures and the explorer, which names the code."""
+    found = []
+    for name, source in (("alone", alone), ("all", CHECKOUT)):
+        project = tmp_path / name
+        project.mkdir()
+        copy_project(alone, project)
+        (project / "src").unlink()
+        (project / "src").symlink_to(source / "src")
+        if source == CHECKOUT:
+            shutil.rmtree(project / "workflow")
+            shutil.copytree(CHECKOUT / "workflow", project / "workflow")
+        snakemake(project, "tables", "--cores", "2", "--config", "speeds=[1000,1150]")
+        found.append({file: digest for file, digest in digests(project).items() if not file.endswith("configuration.json")})
+    assert len([file for file in found[0] if "speed_" in file]) == 8
+    assert found[0] == found[1]
+
+
+@pytest.mark.slow
+def test_its_tests_need_nothing_else(alone):
+    """All are collected, and those of the configuration and of plain values pass: `make test-core` runs all of them."""
+    environment = {**os.environ, "PYTHONPATH": str(alone / "src")}
+    for arguments in (["--collect-only", "tests"], ["-m", "not slow", "tests/core/test_plain.py", "tests/core/test_config.py"]):
+        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
+        done = subprocess.run(command, cwd=alone, env=environment, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
