@@ -1,5 +1,6 @@
 """Matrices that are exported, and imported again."""
 
+import io
 import re
 import shutil
 import warnings
@@ -14,7 +15,7 @@ import scipy.sparse as sp
 from defaults import Orientation
 from import_defaults import MatricesSource
 from test_contact_patches import PATCHES, SPEEDS, every, patched  # noqa: F401
-from test_exports import NAMES, NOTHING, SMALL, SPARSE, _member, directory, reduced_files, write_small  # noqa: F401
+from test_exports import NAMES, directory
 from test_import_parts import ANGLES
 
 from r37core.fem.orientation import OURS
@@ -26,6 +27,37 @@ from r37imports.importing.matrices_in import import_matrices, wording
 from r37imports.importing.matrix_file import read_matrix
 from r37imports.refusal import ImportRefused, MeshWarning
 from r37studies.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
+
+
+@pytest.fixture(scope="module")
+def reduced_files(model, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("reduced")
+    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), folder)
+    return folder
+
+
+SMALL = np.diag(np.arange(4.0, 28.0))
+
+
+SPARSE = sp.csr_array(SMALL)
+
+
+def write_small(folder, table, **changes):
+    """Matrices of 24 rows with a table of contact nodes; what is None is left out."""
+    for name, matrix in ({"M": SMALL, "K_0": SMALL, "K_100": 2 * SMALL, "K_200": 5 * SMALL} | changes).items():
+        if matrix is not None:
+            np.savez(folder / f"{name}.npz", matrix)
+    (folder / "boundary.csv").write_text(table)
+    return MatricesSource(str(folder), OURS)
+
+
+def _member(array):
+    packed = io.BytesIO()
+    np.lib.format.write_array(packed, array, allow_pickle=True)
+    return packed.getvalue()
+
+
+NOTHING = _member(np.zeros(0))
 
 
 @pytest.fixture(scope="module")

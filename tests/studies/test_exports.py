@@ -1,22 +1,18 @@
 """Results for other programs, and matrices that come back."""
 
-import io
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import pyvista
-import scipy.sparse as sp
 from box_operator import box_operator
 from defaults import Orientation
-from import_defaults import MatricesSource
 from test_refinement import PLACE, RAD_S, on_command_line
 
 from r37core.base.speeds import exact_text
-from r37core.fem.orientation import OURS
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.speed_file import write_speed
-from r37studies.exports.matrices_out import write_full_matrices, write_reduced_matrices
+from r37studies.exports.matrices_out import write_full_matrices
 from r37studies.exports.plan import Exports
 from r37studies.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 
@@ -88,35 +84,6 @@ def test_results_in_the_axes_of_another_program(whole, mesh, steel, instant, tmp
     components = np.stack([back[:, a, b] for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))], axis=1)
     np.testing.assert_allclose(components, ours.point_data["stress"], atol=1e-6 * np.abs(components).max())
     assert theirs.compute_cell_sizes()["Volume"].min() > 0.0
-
-
-@pytest.fixture(scope="module")
-def reduced_files(model, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("reduced")
-    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), folder)
-    return folder
-
-
-SMALL = np.diag(np.arange(4.0, 28.0))
-SPARSE = sp.csr_array(SMALL)
-
-
-def write_small(folder, table, **changes):
-    """Matrices of 24 rows with a table of contact nodes; what is None is left out."""
-    for name, matrix in ({"M": SMALL, "K_0": SMALL, "K_100": 2 * SMALL, "K_200": 5 * SMALL} | changes).items():
-        if matrix is not None:
-            np.savez(folder / f"{name}.npz", matrix)
-    (folder / "boundary.csv").write_text(table)
-    return MatricesSource(str(folder), OURS)
-
-
-def _member(array):
-    packed = io.BytesIO()
-    np.lib.format.write_array(packed, array, allow_pickle=True)
-    return packed.getvalue()
-
-
-NOTHING = _member(np.zeros(0))
 
 
 def test_exports_name_speeds_in_rpm(root):
