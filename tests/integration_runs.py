@@ -11,7 +11,7 @@ from reference_engine import ReferenceRotor, ReferenceSimulation
 
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.rotor_simulation import RotorSimulation
-from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.simulate import DIRECTIONS, Simulation
 
 ENGINES = {"compiled": Simulation, "reference": ReferenceSimulation}
 ROTORS = {"compiled": RotorSimulation, "reference": ReferenceRotor}
@@ -28,6 +28,11 @@ def whole_run(model, speed, scene, choice, motion=None, engine="compiled"):
 def both_engines(model, speed, scene, choice):
     """The whole run of the compiled engine, and that of the reference."""
     return [whole_run(model, speed, scene, choice, engine=engine) for engine in ENGINES]
+
+
+def in_all_directions(numbers, kind):
+    """Numbers of a run in all three directions, which are the last axis."""
+    return np.stack([numbers[f"{kind}_{direction}"] for direction in DIRECTIONS], axis=-1)
 
 
 def times(simulation, count):

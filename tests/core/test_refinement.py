@@ -231,9 +231,10 @@ def test_a_round_s_file_says_what_it_was(tmp_path):
 
 def test_what_runs_of_two_members_give(tmp_path):
     """Without stress and of a diverged run that is no number."""
-    run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "max_von_mises_last_revolution": np.array([4.0, 9.0])}
+    rms = {"rms_normal": np.array([0.0, 3.0]), "rms_tangential": np.array([2.0, 5.0])}
+    run = {"status": np.array(0), **rms, "max_von_mises_last_revolution": np.array([4.0, 9.0])}
     diverged = run | {"status": np.array(1), "max_von_mises_last_revolution": np.array([np.nan, 9.0])}
-    runs = [run, diverged, run, {name: run[name] for name in ("status", "rms")}]
+    runs = [run, diverged, run, {"status": np.array(0), **rms}]
     for number, numbers in enumerate(runs):
         write_speed(numbers, tmp_path / f"{number}.npz", {})
     gave = measure_members([8.0, 16.0], [900.0, 950.0], [tmp_path / f"{number}.npz" for number in range(4)])
@@ -244,7 +245,8 @@ def test_what_runs_of_two_members_give(tmp_path):
 def test_a_round_of_a_blade_without_stress(tmp_path):
     """A blade given by matrices has no material: its rounds go by rms and status alone."""
     write_round(Round((900.0,)), tmp_path / "round_0.json")
-    write_speed({"status": np.array(0), "rms": np.full((2, 3), 1e-4)}, tmp_path / "speed_900.npz", {})
+    rms = dict.fromkeys(("rms_normal", "rms_tangential"), np.full(2, 1e-4))
+    write_speed({"status": np.array(0), **rms}, tmp_path / "speed_900.npz", {})
     params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE)}
     files = Named(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz"))
     refine_step(files, Named(round=tmp_path / "round_1.json"), Named(**params, yield_stress=math.inf))

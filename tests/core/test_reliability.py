@@ -23,9 +23,10 @@ from snakemake.exceptions import InputFunctionException, WorkflowError, format_e
 from stubbed_runs import copy_stubbed
 from workflow_runs import copy_project, kill_snakemake, snakemake
 
-from r37core.base.dataset_file import SPEED, about, read_dataset, write_dataset
+from r37core.base.dataset_file import SPEED, read_dataset, write_dataset
 from r37core.base.io import InputFileError, OutputFileError, atomic_write, function_named, scratch_folder, write_json
 from r37core.base.speeds import plan_speeds
+from r37core.base.variable import about
 from r37core.config import ConfigError, command_line_document
 from r37core.config.settings import merged_settings
 from r37core.console import failures, lock, snakemake_run

@@ -14,6 +14,7 @@ from integration_cases import DIRECT
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import InputFileError, Named
+from r37core.base.variable import Variable
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
 from r37core.fem.stress import COMPONENTS, interpolated, recovered_stress, stress_at
@@ -34,7 +35,8 @@ from r37core.stress.operator import StressOperator, read_stress_operators, von_m
 from r37core.stress.recovery import stress_operator, stress_operators
 from r37core.stress.revolutions import largest_of_revolutions
 from r37core.stress.statistic import stress_statistic
-from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.simulate import DIRECTIONS, Simulation
+from r37core.time_integration.speed_arrays import PLACE_OF_STRESS, STATUS
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import numbers_of_run, run_speed
 
@@ -271,6 +273,29 @@ def test_response_holds_every_speed(sweep):
         assert response["diverged_revolution"].isel(speed=1) > 0.0
 
 
+@pytest.mark.parametrize(
+    ("arrays", "message"),
+    [
+        ({"rms_norm": np.zeros(2)}, r"rms_norm: found an array that is not declared; declare it in .*\.speed_arrays"),
+        ({"rms_normal": np.zeros(2), "peak_normal": np.zeros(3)}, r"peak_normal: .* shape \(3,\); allowed: tip_point \(2\)"),
+        ({"lined": np.zeros(1)}, r"lined: found an array of shape \(1,\); allowed: a number"),
+    ],
+)
+def test_only_declared_arrays_are_written(arrays, message, tmp_path):
+    with pytest.raises(ValueError, match=message):
+        write_speed({"status": np.array(0), **arrays}, tmp_path / "speed_900.npz", {})
+    assert not any(tmp_path.iterdir())
+
+
+def test_only_declared_arrays_are_read(tmp_path):
+    file, more = tmp_path / "speed_900.npz", {"rms_normal": Variable((), "m", ""), "costs": Variable((), "s", "")}
+    write_speed({"status": np.array(0), "costs": np.array(1.0)}, file, {}, STATUS | more)
+    assert list(read_speed(file)) == ["status"] and list(read_speed(file, more)) == ["status", "costs"]
+    write_speed({"status": np.array(0), "rms_normal": np.array(1.0)}, file, {}, STATUS | more)
+    with pytest.raises(InputFileError, match=r"speed_900\.npz: .* rms_normal: found .* shape \(\); allowed: tip_point"):
+        read_speed(file)
+
+
 def test_response_names_directions_and_tip_points(sweep):
     """Against a run: tip point by direction (normal, tangential)."""
     folder, files = sweep
@@ -280,12 +305,12 @@ def test_response_names_directions_and_tip_points(sweep):
             at = response.sel(speed=speed)
             for point, tip_point in enumerate(("leading_edge", "trailing_edge")):
                 tip = at.sel(tip_point=tip_point)
-                for column, direction in enumerate(("normal", "radial", "tangential")):
-                    assert tip[f"rms_{direction}"] == run["rms"][point, column]
-                    assert tip[f"peak_{direction}"] == run["peak"][point, column]
-                np.testing.assert_array_equal(tip["revolution_maximum"], run["revolution_maxima"][:, point, 0].astype("f4"))
-            np.testing.assert_array_equal(at["amplitude"], run["amplitude"][0])
-            np.testing.assert_array_equal(at["amplitude_tangential"], run["amplitude"][1])
+                for direction in DIRECTIONS:
+                    assert tip[f"rms_{direction}"] == run[f"rms_{direction}"][point]
+                    assert tip[f"peak_{direction}"] == run[f"peak_{direction}"][point]
+                np.testing.assert_array_equal(tip["revolution_maximum"], run["revolution_maximum"][:, point].astype("f4"))
+            for name in ("amplitude", "amplitude_tangential"):
+                np.testing.assert_array_equal(at[name], run[name])
         assert np.degrees(float(response["casing_cone_angle"])) == pytest.approx(-15.24, abs=0.01)
 
 
@@ -333,7 +358,7 @@ def test_every_blade_and_scene_has_its_own_slab(sweep, tmp_path):
         factors[key] = number + 1.0
         speeds = (900.0, 950.0 + number)
         for speed in speeds:
-            write_speed(run | {"rms": factors[key] * run["rms"]}, tmp_path / f"{number}_{speed:g}.npz", {})
+            write_speed(run | {"rms_normal": factors[key] * run["rms_normal"]}, tmp_path / f"{number}_{speed:g}.npz", {})
         places = [tmp_path / f"{number}_{speed:g}.npz" for speed in speeds]
         contact = "points" if key[0] == "A" else "patches"
         files[key] = respond(places, speeds, tmp_path / f"{number}.nc", numerics="20000 nodes", contact=contact)
@@ -343,7 +368,7 @@ def test_every_blade_and_scene_has_its_own_slab(sweep, tmp_path):
         np.testing.assert_array_equal(dataset["speed"], [900.0, 950.0, 951.0, 952.0, 953.0])
         for (blade, scene), factor in factors.items():
             slab = dataset["rms_normal"].sel(blade=blade, scene=scene)
-            np.testing.assert_array_equal(slab.sel(speed=900.0), factor * run["rms"][:, 0])
+            np.testing.assert_array_equal(slab.sel(speed=900.0), factor * run["rms_normal"])
             assert np.isfinite(slab.sel(speed=949.0 + factor)).all()
             assert np.isnan(slab.drop_sel(speed=[900.0, 949.0 + factor])).all()
 
@@ -426,11 +451,12 @@ def test_places_are_those_of_the_nodes(contact, model, mesh, steel):
     for name, region in model.stress_regions.items():
         np.testing.assert_array_equal(operators[name].places, mesh.parameters[region.nodes.nodes[region.evaluated]])
     kept = run_speed(contact, 1340.0, DIRECT, CHOICE, ("stress",), stress=operators, **KEPT)
-    for name, place in zip(operators, kept["max_von_mises_place"], strict=True):
+    places = np.stack([kept[name] for name in PLACE_OF_STRESS], axis=1)
+    for name, place in zip(operators, places, strict=True):
         assert (operators[name].places == place).all(axis=1).any()
-    assert kept["max_von_mises_place"][0, 1] > kept["max_von_mises_place"][2, 1]
+    assert kept["max_von_mises_span"][0] > kept["max_von_mises_span"][2]
     diverged = run_speed(contact, 1340.0, replace(DIRECT, divergence_limit=2e-4), CHOICE, ("stress",), stress=operators, **KEPT)
-    assert np.isnan(diverged["max_von_mises_place"]).all()
+    assert all(np.isnan(diverged[name]).all() for name in PLACE_OF_STRESS)
 
 
 THREE_SPEEDS = [1000.0, 1340.0, 1700.0]

@@ -50,7 +50,8 @@ def run_speeds(monkeypatch, tmp_path):
         with open(run, "a") as stream:
             stream.write(f"{speed}\n")
         rms = json.loads(task).get("height", 1.0) / (1.0 + (float(speed) / 10.0 - 104.0) ** 2)
-        write_speed({"status": np.array(0), "rms": np.full((2, 3), rms)}, output, json.loads(about))
+        both = dict.fromkeys(("rms_normal", "rms_tangential"), np.full(2, rms))
+        write_speed({"status": np.array(0), **both}, output, json.loads(about))
 
     monkeypatch.setattr(parts, "run_job", peak)
     monkeypatch.setattr(driver, "write_response", lambda files, speeds, file, **_: response(speeds).to_netcdf(file))

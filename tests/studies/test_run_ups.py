@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, LINING, oscillator, with_static_modes
-from integration_runs import ENGINES
+from integration_runs import ENGINES, in_all_directions
 from reference_engine import ReferenceSimulation
 from reference_run_up import RUN_UPS
 from scipy.integrate import solve_ivp
@@ -29,6 +29,7 @@ from r37studies.run_ups import choice as schedule_module
 from r37studies.run_ups import integration as integration_module
 from r37studies.run_ups import revolutions as revolutions_module
 from r37studies.run_ups.choice import Crossing, RunUp, RunUpChoice, RunUpError, check_highest, schedule
+from r37studies.run_ups.dataset import VARIABLES as RUN_UP_ARRAYS
 from r37studies.run_ups.dataset import runs_of, write_run_ups
 from r37studies.run_ups.figures import draw_rates, draw_run_ups
 from r37studies.run_ups.integration import IntegratedSegments, RunUpIntegration
@@ -312,15 +313,16 @@ def test_modes_that_pass_the_highest_frequency_come_and_go(contact):
 def test_a_run_that_diverges_keeps_what_was_before_also_when_it_wears_the_lining(contact):
     run_up = RunUp(1500.0, 1800.0, 3.0, 2, 0, worn=False)
     whole = recorded(contact, NARROW, LONG, run_up)
-    limit = float(whole["maximum"][1:].max()) * 0.999
+    maximum = in_all_directions(whole, "maximum")
+    limit = float(maximum[1:].max()) * 0.999
     scene = replace(NARROW, divergence_limit=limit)
-    assert np.all(whole["maximum"][0] < limit)
+    assert np.all(maximum[0] < limit)
     for worn in (False, True):
         found = recorded(contact, scene, LONG, replace(run_up, worn=worn))
         assert found["status"] == 1
         kept = len(found["speed"])
         assert 1 <= kept == int(found["diverged_revolution"] - 1e-9) < len(whole["speed"])
-        for name in ("speed", "rms", "amplitude"):
+        for name in ("speed", "rms_normal", "amplitude"):
             np.testing.assert_array_equal(found[name], whole[name][:kept])
 
 
@@ -328,7 +330,7 @@ def test_a_lining_worn_by_the_same_run_up(contact):
     """Where the first pass has worn it, the second one finds room."""
     new, worn = (recorded(contact, NARROW, LONG, RunUp(1500.0, 1800.0, 3.0, 2, 0, worn=worn)) for worn in (False, True))
     assert worn["max_wear"][0] >= new["max_wear"][-1] > new["max_wear"][0] > 0.0
-    assert worn["rms"].max() < 0.9 * new["rms"].max()
+    assert in_all_directions(worn, "rms").max() < 0.9 * in_all_directions(new, "rms").max()
 
 
 def test_steps_are_so_short_that_every_mode_tells_its_velocity(contact):
@@ -396,16 +398,17 @@ def test_crossings_that_a_blade_does_not_have():
 
 def written(found, folder):
     """Dataset of one run-up."""
-    write_speed(found, folder / "up.npz", {})
+    write_speed(found, folder / "up.npz", {}, RUN_UP_ARRAYS)
     write_run_ups({("Ref", "abradable", "up"): folder / "up.npz"}, folder / "run_ups.nc", {})
     return xr.load_dataset(folder / "run_ups.nc")
 
 
 def test_files_that_are_no_run_ups_are_named(contact, tmp_path):
     found = recorded(contact, NARROW, LONG, RunUp(1500.0, 1600.0, 1.0, 1, 0, worn=False))
-    for broken in (found | {"rms": found["rms"][:1]}, {"status": found["status"]}):
-        with pytest.raises(InputFileError, match=r"up\.npz: cannot be read .* delete it and run again"):
-            written(broken, tmp_path)
+    with pytest.raises(ValueError, match=r"rms_normal: found an array of shape \(1, 2\); allowed: revolution \(\d+\)"):
+        written(found | {"rms_normal": found["rms_normal"][:1]}, tmp_path)
+    with pytest.raises(InputFileError, match=r"up\.npz: cannot be read .* delete it and run again"):
+        written({"status": found["status"]}, tmp_path)
     dataset = written(found, tmp_path)
     assert list(dataset.data_vars)[:3] == ["start_speed", "stop_speed", "rate"]
     assert dataset["amplitude"].dims == ("run", "revolution", "engine_order")
@@ -549,9 +552,9 @@ def test_revolutions_last_as_long_as_their_samples(contact):
     values = collected.joined()
     np.testing.assert_allclose(values["speed"], 100.0)
     np.testing.assert_allclose(values["time"], [2.0 * np.pi / 100.0, 4.0 * np.pi / 100.0])
-    assert values["amplitude"].shape == (2, 2, 6)
-    np.testing.assert_allclose(values["amplitude"][0, 0], [1.0, 0, 0, 0, 3.0, 0], atol=1e-6)
-    np.testing.assert_allclose(values["amplitude"][0, 1], [0, 0, 0, 0, 0, 2.0], atol=1e-6)
+    assert values["amplitude"].shape == values["amplitude_tangential"].shape == (2, 6)
+    np.testing.assert_allclose(values["amplitude"][0], [1.0, 0, 0, 0, 3.0, 0], atol=1e-6)
+    np.testing.assert_allclose(values["amplitude_tangential"][0], [0, 0, 0, 0, 0, 2.0], atol=1e-6)
 
 
 def test_no_segment_leads_its_mean_speed_by_more_than_allowed():

@@ -74,7 +74,7 @@ def numbers_of_run(models: Models, speed: float, scene: Scene, choice: Integrati
         )
     except UnstableStepError:
         return {"motion": np.nan, "largest": np.full(len(models.stress), np.nan), "largest_penetration": np.nan}
-    motion = float(np.hypot(*run["rms"][0, [0, 2]]))
+    motion = float(np.hypot(run["rms_normal"][0], run["rms_tangential"][0]))
     largest = np.median(run["revolution_von_mises"], axis=1)
     return run | {"motion": motion, "largest": largest}
 

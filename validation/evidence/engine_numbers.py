@@ -21,6 +21,7 @@ from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model
 from r37core.rom.reduction_choice import PATCHES
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
+from r37core.time_integration.simulate import DIRECTIONS
 from r37core.time_integration.speed_run import run_speed
 from r37studies.run_ups.choice import RunUp
 from r37studies.run_ups.integration import RunUpIntegration
@@ -84,9 +85,8 @@ def _frequencies(model: ReducedModel) -> dict[str, float]:
 
 def _of_run(result: dict[str, np.ndarray]) -> dict[str, float]:
     """Rms of both corners in all directions (m), and one number of what else is there."""
-    rms = result["rms"].reshape(-1, 2, 3)[-1]
-    corners, directions = ("leading", "trailing"), ("normal", "radial", "tangential")
-    numbers = {f"rms {corner} {way} (m)": rms[i, j] for i, corner in enumerate(corners) for j, way in enumerate(directions)}
+    rms = {way: result[f"rms_{way}"].reshape(-1, 2)[-1] for way in DIRECTIONS}
+    numbers = {f"rms {corner} {way} (m)": rms[way][i] for i, corner in enumerate(("leading", "trailing")) for way in DIRECTIONS}
     sums = {"wear": "wear (m)", "revolution_von_mises": "von Mises (Pa)", "casing_rms_forward": "casing, forward (m)"}
     return numbers | {f"sum of {label}": np.nansum(result[key]) for key, label in sums.items() if key in result}
 

@@ -18,6 +18,7 @@ from r37core.product.schemas import MODELS
 from r37core.product.targets import COLUMNS as DECLARED
 from r37core.results.columns import CHANCE, ENDS, IN_REGION, LENGTHS, OPERATING, Column, names
 from r37core.results.ranking import RANKED_BY
+from r37core.time_integration.speed_arrays import ARRAYS
 from r37studies.designs.table import MEASURES
 from r37studies.second_motions.tables import RANGE_COLUMNS, RANGES
 from r37studies.tolerances.ranges import COLUMNS as TOLERANCES
@@ -226,14 +227,19 @@ TABLES_OF_RESULTS = {
 }
 """Table of results -> its declared columns. REGION and BLADE stand for a name."""
 
+RUN_FILE = "speed_*.npz"
+"""File of a run, whose arrays are declared."""
+
 
 def column_rows() -> Iterator[tuple[str, str, str]]:
-    """Table, column and meaning of every declared column."""
+    """Table, column and meaning of every declared column, and those of every array of a run."""
     designs = (*MEASURES, *OPERATING)
     declared = {"ranking.csv": DECLARED["ranking"], "designs.csv": designs, "second_motions.csv": RANGES}
     for file, columns in TABLES_OF_RESULTS.items():
         for name in columns:
             yield file, name, _meaning(name, (*declared.get(file, ()), *DECLARED["summary"], *DECLARED["ranking"]))
+    for name, array in ARRAYS.items():
+        yield RUN_FILE, name, f"{array.long_name}; unit {array.units}" + f", over {', '.join(array.dims)}" * bool(array.dims)
 
 
 def _meaning(name: str, columns: Iterable[Column]) -> str:
@@ -254,7 +260,7 @@ def _meaning(name: str, columns: Iterable[Column]) -> str:
 
 
 def columns(input: Any, output: Any, params: Any) -> None:
-    """Every declared column of the tables of results, and what it means."""
+    """Every declared column of the tables of results and every array of a run's file, and what it means."""
     write_columns(output.table)
 
 

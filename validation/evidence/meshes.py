@@ -129,6 +129,6 @@ def _measured(settings: Settings, blade: str, mesh: BladeMesh) -> tuple[np.ndarr
     for speed in SPEED_STEP * round(published / SPEED_STEP) + ABOUT:
         choice = settings.integration_choice(blade, LINED, speed)
         few = {"spectrum_highest_order": 1, "wear_angles": 8}
-        rms[speed] = run_speed(contact, float(speed), settings.scenes[LINED].scene, choice, (), **few)["rms"][0, 0]
+        rms[speed] = run_speed(contact, float(speed), settings.scenes[LINED].scene, choice, (), **few)["rms_normal"][0]
     peak = max(rms, key=rms.__getitem__)
     return _frequencies(matrices), float(peak), float(rms[peak])

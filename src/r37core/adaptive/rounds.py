@@ -9,7 +9,7 @@ import xarray as xr
 
 from r37core.base.io import read_json, readable, write_json
 from r37core.base.speeds import SpeedPlan
-from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
+from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
 from .criterion import RefinementChoice, dense_ranges, next_speeds, window_speeds
@@ -51,13 +51,13 @@ def measure_members(yields: Sequence[float], speeds: Sequence[float], files: Ite
     for yield_stress in yields:
         for speed in speeds:
             run = read_speed(next(every))
-            rms = run["rms"][TIP_POINTS.index("leading_edge")]
+            edge = TIP_POINTS.index("leading_edge")
             stress = (
                 float(run["max_von_mises_last_revolution"][0]) / yield_stress
                 if "max_von_mises_last_revolution" in run
                 else math.nan
             )
-            curves = (float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential"))
+            curves = (float(run[f"rms_{name}"][edge]) for name in ("normal", "tangential"))
             gave[speed] += [int(run["status"]), *curves, stress]
     return gave
 

@@ -4,8 +4,6 @@ import hashlib
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
-from enum import IntEnum
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +13,7 @@ import xarray as xr
 
 from .io import FILE_ATTRIBUTES, atomic_write, readable
 from .units import RPM
+from .variable import Variable
 
 
 class ThreadLock:
@@ -57,32 +56,6 @@ def lazy_dataset(file: Path | str) -> xr.Dataset:
     """A netCDF file as a dataset whose values are read when they are used. Raises InputFileError when it cannot be read."""
     with NETCDF_LOCK, readable(file):
         return xr.open_dataset(file, engine="netcdf4", lock=NETCDF_LOCK)
-
-
-@dataclass(frozen=True)
-class Variable:
-    """Variable of a dataset's table: `dims` beyond those that a file adds to all, meaning, `dtype` as stored.
-
-    `states`: what its whole numbers mean, the last one for what was not run or is not known; each has a `text`.
-    """
-
-    dims: tuple[str, ...]
-    units: str
-    long_name: str
-    dtype: str = "f8"
-    states: type[IntEnum] | None = None
-
-    @property
-    def attributes(self) -> dict[str, Any]:
-        """Attributes of the variable in a file, after the CF conventions."""
-        states: list[Any] = list(self.states or ())
-        flags = {"flag_values": np.array(states, "i1"), "flag_meanings": " ".join(state.text for state in states)}
-        return about(self.units, self.long_name) | (flags if states else {})
-
-
-def about(units: str, long_name: str) -> dict[str, str]:
-    """Attributes of a variable, after the CF conventions."""
-    return {"units": units, "long_name": long_name}
 
 
 SPEED = Variable(("speed",), "rad s-1", "angular speed of the rotor")

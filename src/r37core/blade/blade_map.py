@@ -145,7 +145,7 @@ class Blade(BladeMap):
     def described(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """Table rows, placement, section properties and surface rates of geometry.nc."""
         # heavy, and the configuration imports this module
-        from r37core.base.dataset_file import about
+        from r37core.base.variable import about
 
         data: dict = {
             name: ("profile", [getattr(p.parameters, name) for p in self.profiles], about(units, name.replace("_", " ")))

@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import about, read_dataset, write_dataset
+from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import function_named, readable
 from r37core.base.packages import registered
+from r37core.base.variable import about
 
 from .blade_map import Blade, BladeMap
 from .profile import PARAMETER_UNITS, PRESSURE, SUCTION, Profile, ProfileParameters

@@ -21,7 +21,7 @@ from r37core.results.columns import MOST, NOT_RESOLVED, SOME, above_yield
 from r37core.results.limits import OF_LIMITS
 from r37core.results.table_file import read_table
 from r37core.rom.reduction_choice import QUADRATIC
-from r37core.time_integration.lining_at_tip import LINING_AT_TIP
+from r37core.time_integration.speed_arrays import OF_LINING
 from r37core.time_integration.status import RunStatus
 
 _SECOND_ORDER = "peak_share_of_height"
@@ -202,7 +202,7 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
     # not at every start of Snakemake
     from r37core.base.dataset_file import open_dataset
 
-    names = ("status", "largest_normal_force", *OF_LIMITS, *LINING_AT_TIP)
+    names = ("status", "largest_normal_force", *OF_LIMITS, *OF_LINING)
     try:
         with open_dataset(file) as dataset:
             rms = dataset[[name for name in names if name in dataset]].load()
@@ -218,7 +218,7 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
     fed = [" in ".join(pairs[number]) for number in np.flatnonzero(failed.any(axis=1) & linear)]
     few = "lined_tip_share" in rms and rms["scene"].to_index().nunique() <= MOST_SCENES
     lined = np.flatnonzero(rms["lined_tip_share"].notnull()) if few else ()
-    linings = {pairs[number]: {name: rms[name].values[number] for name in LINING_AT_TIP} for number in lined}
+    linings = {pairs[number]: {name: rms[name].values[number] for name in OF_LINING} for number in lined}
     lines = [
         *remarks_on_contact(list(untouched)),
         *remarks_on_diverged(fed),

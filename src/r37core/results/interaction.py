@@ -7,13 +7,13 @@ import numpy as np
 import xarray as xr
 
 from r37core.time_integration.settling import MotionAtEnd
+from r37core.time_integration.speed_arrays import PLACE_OF_STRESS
 from r37core.time_integration.status import RunStatus
 
 from .columns import INTERACTIONS, MOST_REVOLUTIONS, SOME_REVOLUTIONS, names
 from .danger import largest_of, ranges_of
 from .exceedance import Exceedance, SpeedRange
 from .measures import drop_after, lasts
-from .variables import PLACES
 
 LEAST_THICKNESS = "the sufficient thickness is a lower bound"
 
@@ -88,8 +88,7 @@ def _place(reach: xr.Dataset) -> dict[str, float]:
     if "max_von_mises_ever" not in reach or not (known := reach["max_von_mises_ever"].dropna("speed")).size:
         return {}
     worst = reach.sel(speed=known["speed"][int(np.argmax(known.values))])
-    places = (f"max_von_mises_{name}" for name in PLACES)
-    return {place: float(worst[place]) for place in places if place in worst}
+    return {place: float(worst[place]) for place in PLACE_OF_STRESS if place in worst}
 
 
 def _largest(reach: xr.Dataset, name: str) -> float:

@@ -11,9 +11,10 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.base.dataset_file import SPEED_RPM, about, attributes_of, joined_hash, new_netcdf, open_dataset
+from r37core.base.dataset_file import SPEED_RPM, attributes_of, joined_hash, new_netcdf, open_dataset
 from r37core.base.origin import origin
 from r37core.base.units import RPM
+from r37core.base.variable import about
 
 
 @dataclass(frozen=True)

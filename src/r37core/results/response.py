@@ -8,12 +8,12 @@ import numpy as np
 
 from r37core.base.dataset_file import dataset_of, write_dataset
 from r37core.stress.statistic import UNKNOWN, Strengths, goodman_statistic, stress_statistic
-from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
-from r37core.time_integration.speed_file import read_speed
+from r37core.time_integration.simulate import TIP_POINTS
+from r37core.time_integration.speed_file import read_speed, sizes_of
 
 from .limits import beyond_limits
 from .measures import first_yield
-from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, PLACES, VARIABLES
+from .variables import AXES, COUNTED, HISTORIES, OF_ALL_SPEEDS, VARIABLES
 
 
 def write_response(
@@ -48,39 +48,26 @@ def write_response(
 
 def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Strengths) -> dict[str, np.ndarray]:
     """The variables of one speed, and the coordinates that they need."""
-    values = {**run, "casing_cone_angle": run["cone_angle"]}
-    for kind in ("rms", "peak"):
-        values |= {f"{kind}_{direction}": column for direction, column in zip(DIRECTIONS, run[kind].T, strict=True)}
-    values["revolution_maximum"] = run["revolution_maxima"][:, :, DIRECTIONS.index("normal")]
-    values["revolution"] = np.arange(1, len(values["revolution_maximum"]) + 1)
-    values["beyond_limits"] = beyond_limits(run)
-    if "amplitude" in run:
-        values["amplitude"], values["amplitude_tangential"] = run["amplitude"]
+    sizes = sizes_of(run)
+    values = {**run, "beyond_limits": beyond_limits(run)}
+    values |= {name: np.arange(1, sizes[name] + 1) for name in COUNTED if name in sizes}
     if "wear" in run:
-        sectors = len(run["wear"])
-        values["angle"] = np.arange(sectors) * 2.0 * np.pi / sectors
-        values["lobes"] = np.arange(len(run["wear_harmonic"]))
-    if "clearance" in run:
-        values["contact_node"] = np.arange(1, len(run["clearance"]) + 1)
-    if "casing_energy" in run:
-        values["casing_mode"] = np.arange(1, len(run["casing_energy"]) + 1)
+        values["angle"] = np.arange(sizes["angle"]) * 2.0 * np.pi / sizes["angle"]
+        values["lobes"] = np.arange(sizes["lobes"])
     if "max_von_mises_last_revolution" in run:
         values["yield_stress"] = np.array(yield_stress)
-    if "max_von_mises_place" in run:
-        values |= {f"max_von_mises_{name}": part for name, part in zip(PLACES, run["max_von_mises_place"].T, strict=True)}
     if "revolution_von_mises" in run:
         values |= stress_statistic(in_statistic(run, "revolution_von_mises"), yield_stress)
         # histories of all revolutions are in single precision
         values["max_von_mises_ever"] = np.maximum(values["max_von_mises_ever"], run["max_von_mises_last_revolution"])
     if "alternating_stress" in run:
         values |= goodman_statistic(run, strengths)
-        values["stress_node"] = np.arange(1, len(run["alternating_stress"]) + 1)
     return values
 
 
 def in_statistic(run: Mapping[str, np.ndarray], name: str) -> np.ndarray:
     """A history of a run by its `name`, shape (rows, revolutions), over the revolutions in the statistic alone."""
-    history, revolutions, end = run[name], len(run["revolution_maxima"]), int(run["statistic_end"])
+    history, revolutions, end = run[name], len(run["revolution_maximum"]), int(run["statistic_end"])
     # a history of all revolutions has them in place, a shorter one is that of the last
     last = history[:, :end] if history.shape[1] == revolutions else history
     return last[:, -int(run["statistic_revolutions"]) :]

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import about, read_dataset, write_dataset
+from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import readable
+from r37core.base.variable import about
 
 from .logarithmic_stiffness import LogarithmicStiffness
 from .quadratic_terms import QuadraticTerms

@@ -1,16 +1,18 @@
 """Parts of a job of many simulations, which a broken one goes on from."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from r37core.base.speeds import exact_text
+from r37core.base.variable import Variable
 from r37core.machine_code.kept import kept_file
 from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.initial_motion import InitialMotion
+from r37core.time_integration.speed_arrays import ARRAYS
 from r37core.time_integration.speed_file import read_speed, read_status, write_speed
 from r37core.time_integration.speed_job import run_job
 
@@ -52,17 +54,21 @@ def simulated(
 
 @dataclass(frozen=True)
 class Parts:
-    """Numbers of simulations in files of a `folder`. `made_of`: what all of them follow from, told apart by its repr."""
+    """Numbers of simulations in files of a `folder`.
+
+    `made_of`: what all of them follow from, told apart by its repr. `arrays`: those that the files may have.
+    """
 
     folder: Path
     made_of: object
+    arrays: Mapping[str, Variable] = field(default_factory=lambda: ARRAYS)
 
     def file(self, speed: float, made_of: object, run: Callable[[], Numbers]) -> Path:
         """File of a simulation at a speed (rad/s), with the numbers that `run` gives where it is missing or damaged.
 
         `made_of`: what this one follows from. Raises what `run` raises.
         """
-        return part(self.folder, speed, (self.made_of, made_of), lambda file: write_speed(run(), file, {}))
+        return part(self.folder, speed, (self.made_of, made_of), lambda file: write_speed(run(), file, {}, self.arrays))
 
     def carried(
         self, speeds: Sequence[float], made_of: object, run: Callable[[float, CarriedMotion | None], Numbers]

@@ -13,7 +13,8 @@ from r37core.stress.revolutions import largest_of_revolutions
 
 from .finished_run import FinishedRun
 from .problem import Problem
-from .simulate import LEADING_EDGE
+from .simulate import DIRECTIONS, LEADING_EDGE
+from .speed_arrays import PLACE_OF_STRESS, SPECTRUM
 from .state import SimulationRecord
 from .status import RunStatus
 
@@ -59,7 +60,7 @@ def status_numbers(problem: Problem, reached: float | None) -> dict[str, np.ndar
         "diverged_revolution": np.array(diverged_at),
         "diverged_time": np.array(diverged_at * 2.0 * np.pi / problem.speed),
         "time_step": np.array(problem.grid.time_step),
-        "cone_angle": np.array(problem.casing.cone_angle),
+        "casing_cone_angle": np.array(problem.casing.cone_angle),
         "lined": np.array(int(problem.scene.lined)),
         "casing_lobes": np.array(problem.scene.casing.lobes),
     }
@@ -121,18 +122,19 @@ def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: b
     return history, nodes
 
 
-def worst_places(run: FinishedRun, stress: StressOperators, history: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """Chord, span and thickness, shape (regions, 3), of the largest stress in the statistic, of all blades; NaN if diverged.
+def worst_places(run: FinishedRun, stress: StressOperators, history: np.ndarray, nodes: np.ndarray) -> dict[str, np.ndarray]:
+    """Chord, span and side by region of the largest stress in the statistic, of all blades; NaN if diverged.
 
     `history` and `nodes`: see stress_histories.
     """
     if run.first_diverged is not None:
-        return np.full((len(stress), 3), np.nan)
+        return dict.fromkeys(PLACE_OF_STRESS, np.full(len(stress), np.nan))
     choice = run.problem.choice
     reached = len(run.records[0].snapshots) // choice.snapshots_per_revolution
     late = slice(max(reached - choice.revolutions_in_statistic, 0), reached)
     regions = zip(stress.values(), history[:, :, late], nodes[:, :, late], strict=True)
-    return np.array([operator.place(worst.flat[largest.argmax()]) for operator, largest, worst in regions])
+    places = np.array([operator.place(worst.flat[largest.argmax()]) for operator, largest, worst in regions])
+    return dict(zip(PLACE_OF_STRESS, places.T, strict=True))
 
 
 def casing_numbers(problem: Problem, record: SimulationRecord, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
@@ -154,11 +156,17 @@ def append_rotation(coordinates: np.ndarray, model: ContactModel, speeds: float 
     return np.hstack([coordinates, np.broadcast_to(amplitudes, (len(coordinates), amplitudes.shape[-1]))])
 
 
+def in_directions(kind: str, displacement: np.ndarray) -> dict[str, np.ndarray]:
+    """An array for each of the DIRECTIONS, which are the last axis."""
+    return {f"{kind}_{direction}": displacement[..., column] for column, direction in enumerate(DIRECTIONS)}
+
+
 def spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
-    """Amplitude (m) of displacements, shape (directions, samples), at multiples of 1/revolutions of the engine order."""
+    """Amplitude (m) of displacements, shape (KEPT, samples), at multiples of 1/revolutions of the engine order."""
     amplitude = amplitudes(displacement)
     count = min(highest_order * revolutions + 1, amplitude.shape[1])
-    return {"amplitude": amplitude[:, :count].astype(np.float32), "engine_order": np.arange(count) / revolutions}
+    kept = zip(SPECTRUM, amplitude[:, :count].astype(np.float32), strict=True)
+    return {**dict(kept), "engine_order": np.arange(count) / revolutions}
 
 
 def amplitudes(values: np.ndarray) -> np.ndarray:

@@ -7,11 +7,11 @@ from r37core.contact.laws import lines_of_bar
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-LINING_AT_TIP = ("lining_elastic_stiffness", "lining_plastic_stiffness", "tip_stiffness", "lined_tip_share")
+from .speed_arrays import OF_LINING
 
 
 def lining_at_tip(model: ContactModel, scene: Scene) -> dict[str, np.ndarray]:
-    """Numbers of LINING_AT_TIP of a blade's `model` in a lined `scene`; empty without a lining.
+    """Numbers of OF_LINING of a blade's `model` in a lined `scene`; empty without a lining.
 
     `lining_elastic_stiffness` (N/m): E A/e of the lining under all contact nodes, with its modulus E, thickness e and the
     pressed area A; `lining_plastic_stiffness` (N/m): the slope while it wears, that times K/(E + K). `tip_stiffness` (N/m): of
@@ -27,4 +27,4 @@ def lining_at_tip(model: ContactModel, scene: Scene) -> dict[str, np.ndarray]:
     mean_rows = lengths / lengths.sum() @ normal
     width = areas.sum() / (lining.arc(model.tip_radius) if lining.published else lining.contact_length)
     values = (elastic, plastic, 1.0 / np.sum(mean_rows**2 / model.squared_frequencies), width / lengths.sum())
-    return {name: np.array(value) for name, value in zip(LINING_AT_TIP, values, strict=True)}
+    return {name: np.array(value) for name, value in zip(OF_LINING, values, strict=True)}

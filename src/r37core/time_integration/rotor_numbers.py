@@ -40,7 +40,7 @@ class RotorRun(FinishedRun):
         `blade_number`, `blade_angle` (rad), `blade_frequency_factor`, `blade_longer` (m), `blade_rms` and `blade_peak` (m) over
         the last half, `blade_maximum` (m), shape (blades, spans), in spans of `span_revolutions` each, `blade_contact`, share
         of the time, and `blade_worn` (m3), of the lining. `leader`: number of the blade that leads. `nodal_diameter` and
-        `nodal_diameter_share`: see nodal_diameters. `blade_von_mises` (Pa), shape (blades, revolutions): the `history`.
+        `nodal_diameter_share`: see nodal_diameters. `blade_revolution_von_mises` (Pa): the `history`.
         """
         rotor, choice = self.rotor, self.problem.choice
         totals = np.array([state.totals for state in self.states])
@@ -63,7 +63,7 @@ class RotorRun(FinishedRun):
             **nodal_diameters(np.array([part[:, 0, KEPT] for part in half]), self.late, rotor),
         }
         if history is not None:
-            numbers["blade_von_mises"] = history
+            numbers["blade_revolution_von_mises"] = history
         return numbers
 
 

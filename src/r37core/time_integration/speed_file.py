@@ -1,4 +1,7 @@
-"""speed_*.npz: the file of one blade, scene and speed. Small, and quick to read and write: there are thousands."""
+"""speed_*.npz: the file of one blade, scene and speed. Small, and quick to read and write: there are thousands.
+
+Its arrays are declared in speed_arrays.
+"""
 
 import json
 from collections.abc import Mapping
@@ -7,7 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.io import atomic_write, readable
+from r37core.base.variable import Variable
 
+from .speed_arrays import ARRAYS
 from .status import RunStatus
 
 RUN, STATUS, PARAMETERS = "run", "status", "parameters"
@@ -15,24 +20,51 @@ RUN, STATUS, PARAMETERS = "run", "status", "parameters"
 five times as long, and Snakemake looks at the status of every run."""
 
 
-def write_speed(result: Mapping[str, np.ndarray], file: Path | str, parameters: Mapping[str, object]) -> None:
-    """Write the arrays of one run, `status` among them, and, as JSON text under `parameters`, what made them."""
-    arrays = {name: np.asarray(array) for name, array in result.items()}
-    status = arrays.pop(STATUS)
-    run = np.zeros((), [(name, array.dtype, array.shape) for name, array in arrays.items()])
-    for name, array in arrays.items():
+def sizes_of(run: Mapping[str, np.ndarray], arrays: Mapping[str, Variable] = ARRAYS) -> dict[str, int]:
+    """Size of each dimension of a run's arrays.
+
+    Raises ValueError for one that is not declared among `arrays`, and for one whose shape is not that of its dimensions.
+    """
+    sizes: dict[str, int] = {}
+    for name, array in run.items():
+        if name not in arrays:
+            raise ValueError(f"{name}: found an array that is not declared; declare it in {__package__}.speed_arrays")
+        shape, dims = array.shape, arrays[name].dims
+        if len(shape) != len(dims) or shape != tuple(map(sizes.setdefault, dims, shape)):
+            known = ", ".join(f"{dim} ({sizes.get(dim, 'any')})" for dim in dims)
+            raise ValueError(f"{name}: found an array of shape {shape}; allowed: {known or 'a number'}")
+    return sizes
+
+
+def write_speed(
+    result: Mapping[str, np.ndarray],
+    file: Path | str,
+    parameters: Mapping[str, object],
+    arrays: Mapping[str, Variable] = ARRAYS,
+) -> None:
+    """Write the arrays of one run, `status` among them, and, as JSON text under `parameters`, what made them.
+
+    `arrays`: those that there may be. Raises what sizes_of raises.
+    """
+    numbers = {name: np.asarray(array) for name, array in result.items()}
+    sizes_of(numbers, arrays)
+    status = numbers.pop(STATUS)
+    run = np.zeros((), [(name, array.dtype, array.shape) for name, array in numbers.items()])
+    for name, array in numbers.items():
         run[name] = array
     with atomic_write(file) as partial:
         text = np.array(json.dumps(dict(parameters), sort_keys=True, default=str))
         np.savez(partial, allow_pickle=False, **{PARAMETERS: text, STATUS: status, RUN: run})
 
 
-def read_speed(file: Path | str) -> dict[str, np.ndarray]:
-    """The arrays of a run; InputFileError when the file cannot be read."""
+def read_speed(file: Path | str, arrays: Mapping[str, Variable] = ARRAYS) -> dict[str, np.ndarray]:
+    """Status of a run, and all of `arrays` that its file has; InputFileError when it cannot be read, or for a wrong shape."""
     with readable(file), np.load(file) as stored:
         run = stored[RUN]
         # aligned, as computing with a field of a record is slower
-        return {STATUS: stored[STATUS], **{name: run[name].copy() for name in run.dtype.names}}
+        numbers = {name: run[name].copy() for name in run.dtype.names if name in arrays}
+        sizes_of(numbers, arrays)
+        return {STATUS: stored[STATUS], **numbers}
 
 
 def read_status(file: Path | str) -> RunStatus:

@@ -40,24 +40,9 @@ def run_speed(
 ) -> dict[str, np.ndarray]:
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
-    Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
-    (rad), `lined`, 1 where there is a lining, and what lining_at_tip says of it, `rms` and `peak` (m) over the revolutions in
-    the statistic, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end
-    of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics,
-    `largest_penetration` (m) of the tip's edge into the casing among them. `peak_share_of_height`: the largest of the maxima,
-    also of a diverged run, of a blade with displacements of second order, and its `share_of_height_limit`; limit_numbers.
-    `clearance` (m), shape (nodes,): where it changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading
-    edge's normal and tangential motion.
-    `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
-    of rotation's shapes. With `stress` operators, by `region`: `max_von_mises_last_revolution` (Pa) in the last revolution,
-    `revolution_von_mises` (Pa), shape (regions, revolutions), the largest of each of the last `choice.snapshot_revolutions`,
-    `max_von_mises_place`, see worst_places, `stress_region` and `static_stress`, 1 where rotation's is in them; with fatigue:
-    see fatigue_numbers. `casing_...`: see casing_waves. A diverged run has NaN where a number would need
-    the rest of the run. With a rotor: the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and
-    energies; the spectrum of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade,
-    see RotorRun. `status` is that of the rotor: all blades end when one diverges, whose snapshots are
-    kept then. With `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the
-    energies `initial_energy` (J). Of a single blade also its motion as it ends, without the wear: CarriedMotion.
+    Returned are arrays of speed_arrays.ARRAYS, by name: those of `results` and all others that blade, scene and `motion` have.
+    `motion`: in which the blade starts, if not at rest. `stress`: operators by region. A rotor ends when one of its blades
+    diverges, whose snapshots are kept then.
     Raises what Problem raises, and InitialMotionError.
     """
     simulation = simulation_of(model, speed, scene, choice)
@@ -100,11 +85,12 @@ def numbers_of_run(
     statistic = [part[first * per_revolution :] for part in samples]
     maxima = [kept_numbers.extended(kept_numbers.largest_of_each(revolutions, part), choice.revolutions) for part in samples]
     numbers = kept_numbers.status_numbers(problem, None if ended is None else len(run.records[ended].samples) / per_revolution)
+    reached = np.max(maxima, axis=0)
     numbers |= lining_at_tip(model, scene)
     numbers |= {
-        "rms": np.max([np.sqrt(np.mean(part**2, axis=0)) for part in statistic], axis=0),
-        "peak": np.max([part[first:revolutions].max(axis=0) for part in maxima], axis=0),
-        "revolution_maxima": np.max(maxima, axis=0),
+        **kept_numbers.in_directions("rms", np.max([np.sqrt(np.mean(part**2, axis=0)) for part in statistic], axis=0)),
+        **kept_numbers.in_directions("peak", np.max([part[first:revolutions].max(axis=0) for part in maxima], axis=0)),
+        "revolution_maximum": reached[..., DIRECTIONS.index("normal")],
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
         # a tip line that is known at its contact nodes alone does not say it
@@ -114,7 +100,6 @@ def numbers_of_run(
     }
     if model.quadratic is not None:
         # as far as a run got that diverged
-        reached = numbers["revolution_maxima"]
         numbers["peak_share_of_height"] = np.max(reached, where=np.isfinite(reached), initial=0.0) / model.quadratic.height
         numbers["share_of_height_limit"] = np.array(model.quadratic.share_within(PATH_ERROR * scene.casing.clearance))
     numbers |= kept_numbers.limit_numbers(run, totals)
@@ -131,7 +116,7 @@ def numbers_of_run(
     if "stress" in results:
         if stress is not None:
             history, nodes = kept_numbers.stress_histories(run, stress, "static_stress" in results)
-            numbers["max_von_mises_place"] = kept_numbers.worst_places(run, stress, history, nodes)
+            numbers |= kept_numbers.worst_places(run, stress, history, nodes)
         numbers |= _stress(run, stress, history, results)
     if "wear" in results:
         assert scene.lining is not None

@@ -133,7 +133,7 @@ class SectionBlade(BladeMap):
     def described(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """Points of the sections one after the other, and what cuts them, for geometry.nc."""
         # heavy, and the configuration imports this module
-        from r37core.base.dataset_file import about
+        from r37core.base.variable import about
 
         curves = self.sections
         data: dict = {

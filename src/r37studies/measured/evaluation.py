@@ -27,7 +27,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37studies.gauges import gauge_rows
 
 from .calibration_plan import Calibrated
-from .observed import ObservedBlade
+from .observed import ObservedBlade, arrays_of
 from .points import TIP_TIMING, Measurement
 
 Values = dict[str, list[float]]
@@ -44,7 +44,8 @@ def observed_blade(
     Raises ValueError for a gauge that is not on the blade.
     """
     made_of = [content_digest(files.model), code_of("r37studies.measured.steps.observe")]
-    blade = ObservedBlade(read_contact_model(files.model), choice, measurements, Parts(folder, made_of))
+    parts = Parts(folder, made_of, arrays_of(measurements))
+    blade = ObservedBlade(read_contact_model(files.model), choice, measurements, parts)
     strains = [each.gauge for each in measurements.values() if each.gauge is not None]
     if strains:
         whole = read_reduced_model(files.whole).whole_blade
@@ -81,7 +82,8 @@ class Evaluation:
                     sweep, attributes = blade_sweep(varied, blade, scene, kept=False), structure_attributes(settings, blade)
                     file = sweep.file("contact_model", structures, attributes)
                     observed, made_of = replace(observed, model=read_contact_model(file)), [content_digest(file), made_of]
-                runs = replace(observed, parts=Parts(self.folder / name / blade / scene, made_of))
+                parts = replace(observed.parts, folder=self.folder / name / blade / scene, made_of=made_of)
+                runs = replace(observed, parts=parts)
                 # on a bare casing a single run is a matter of chance
                 scenes = [other.scaled_friction(factor) or other for factor in ((1.0,) if other.lined else _FRICTION)]
                 several = [dict(part[:2] for part in runs.simulated(each)) for each in scenes]

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from r37core.base.variable import Variable
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.recovery_nodes import RecoveryNodes
@@ -14,6 +15,7 @@ from r37core.time_integration import kept_numbers
 from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS, Simulation
+from r37core.time_integration.speed_arrays import STATUS
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 from r37studies.tip_timing import arrival_times
@@ -43,7 +45,8 @@ class ObservedBlade:
         """Name of each measurement, simulated values at its points, and a remark. Raises what a simulation raises."""
         speeds = sorted({speed for each in self.measurements.values() for speed in each.run_speeds})
         made_of = (scene, self.choice, [each.observes for each in self.measurements.values()])
-        runs = {speed: read_speed(self.parts.file(speed, made_of, partial(self._run, scene, speed))) for speed in speeds}
+        files = {speed: self.parts.file(speed, made_of, partial(self._run, scene, speed)) for speed in speeds}
+        runs = {speed: read_speed(file, self.parts.arrays) for speed, file in files.items()}
         for name, measurement in self.measurements.items():
             yield name, *measurement.simulated(runs, name)
 
@@ -96,6 +99,11 @@ class ObservedBlade:
         arrived, rigid = arrival_times(times, tip[:, DIRECTIONS.index("tangential")], radius, speed, ahead, turns)
         displacement = radius * speed * (arrived - rigid)[0]
         return displacement[np.isfinite(displacement)], 1
+
+
+def arrays_of(measurements: Mapping[str, Measurement]) -> dict[str, Variable]:
+    """Arrays of a run's file: status, and the simulated values of each measurement at its points."""
+    return STATUS | {name: Variable((name,), "1", f"simulated values of {name}, in its unit") for name in measurements}
 
 
 def statistic(signal: np.ndarray, samples: int, measurement: Measurement, order: int) -> float:

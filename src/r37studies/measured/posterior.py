@@ -7,7 +7,7 @@ import pandas as pd
 import scipy
 import xarray as xr
 
-from r37core.base.dataset_file import about
+from r37core.base.variable import about
 from r37core.base.varied_number import SCENE, VariedNumber, with_value
 from r37core.base.yaml_file import yaml_text
 from r37core.config import Settings

@@ -13,22 +13,24 @@ from r37core.results.columns import MOST_REVOLUTIONS
 from r37core.results.joining import Along
 from r37core.results.response import in_statistic
 from r37core.results.table_file import read_table
-from r37core.results.variables import STATUS
+from r37core.results.variables import OF_STRESS
 from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.rotor_numbers import span_maxima
+from r37core.time_integration.speed_arrays import ARRAYS
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 from r37studies.closing import largest_stress_text
 
 _BLADES = ("blade_number",)
-_MOTION = "the leading edge's displacement, normal and tangential together,"
+
+OF_ALL_SPEEDS = {
+    **{name: ARRAYS[name] for name in ("blade_angle", "blade_frequency_factor", "blade_longer")},
+    "yield_stress": OF_STRESS["yield_stress"],
+}
+"""Variables that no speed changes."""
 
 VARIABLES = {
-    "blade_rms": Variable(_BLADES, "m", f"rms of {_MOTION} over the last half of the run"),
-    "blade_peak": Variable(_BLADES, "m", f"largest value of {_MOTION} over the last half of the run"),
-    "blade_maximum": Variable((*_BLADES, "span"), "m", f"largest value of {_MOTION} in the span", "f4"),
-    "blade_contact": Variable(_BLADES, "1", "share of the steps with a contact force"),
-    "blade_worn": Variable(_BLADES, "m3", "volume of lining that the blade has worn off, of bars of the scene's width"),
+    **{name: ARRAYS[name] for name in ("blade_rms", "blade_peak", "blade_maximum", "blade_contact", "blade_worn")},
     "blade_max_von_mises_ever": Variable(
         _BLADES, "Pa", "largest von Mises stress of the last half of the run in the region that decides", "f4"
     ),
@@ -36,37 +38,21 @@ VARIABLES = {
     "blade_share_of_revolutions_above_yield": Variable(
         _BLADES, "1", "share of the last half's revolutions in which that stress exceeds yield"
     ),
-    "leader": Variable((), "1", "number of the blade with the largest blade_rms; where the run diverged, that did first", "i4"),
-    "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
-    "max_wear": Variable((), "m", "largest wear of the lining at the end"),
-    "nodal_diameter_share": Variable(
-        ("nodal_diameter",),
-        "1",
-        "share of the blades' motion, normal and tangential, that runs round the rotor as a wave of so many nodal diameters",
-    ),
-    "status": STATUS["status"],
+    **{name: ARRAYS[name] for name in ("leader", "wear_harmonic", "max_wear", "nodal_diameter_share", "status")},
     "diverged_revolution": Variable((), "1", "revolution at which the first blade diverged"),
-    "blade_angle": Variable(_BLADES, "rad", "angle at which the blade stands"),
-    "blade_frequency_factor": Variable(_BLADES, "1", "frequencies of the blade over those of the model"),
-    "blade_longer": Variable(_BLADES, "m", "by how much the blade is longer than the model"),
-    "yield_stress": Variable((), "Pa", "yield stress of the blade's material"),
+    **OF_ALL_SPEEDS,
 }
 """Dimensions are those beyond the speed."""
-
-OF_ALL_SPEEDS = ("blade_angle", "blade_frequency_factor", "blade_longer", "yield_stress")
-"""Variables that no speed changes."""
 
 RUNS = Along(rows="run", dim="speed", names=(*VARIABLES, "speed"), coordinates=("blade", "scene", "speed"))
 """Rotors of all blades and scenes: each speed is a run; NaN where a rotor has fewer blades."""
 
 AXES = {
-    "blade_number": Variable(_BLADES, "1", "number of the blade", "i4"),
+    "blade_number": ARRAYS["blade_number"],
     "span": Variable(("span",), "1", "last revolution of the span", "i4"),
     "stress_span": Variable(("stress_span",), "1", "last revolution of the span", "i4"),
     "lobes": Variable(("lobes",), "1", "number of lobes", "i4"),
-    "nodal_diameter": Variable(
-        ("nodal_diameter",), "1", "nodal diameters; positive for a wave that runs in the sense of growing theta", "i4"
-    ),
+    "nodal_diameter": ARRAYS["nodal_diameter"],
 }
 
 
@@ -86,15 +72,15 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
 
 def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
     """Numbers of one speed, and the coordinates that they need."""
-    revolutions = len(run["revolution_maxima"])
+    revolutions = len(run["revolution_maximum"])
     row = run | {"yield_stress": np.array(yield_stress), "span": _ends(revolutions, int(run["span_revolutions"]))}
     if "wear_harmonic" in run:
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
-    if "blade_von_mises" in run:
-        stress = run["blade_von_mises"]
+    if "blade_revolution_von_mises" in run:
+        stress = run["blade_revolution_von_mises"]
         row["blade_von_mises"], length = span_maxima(stress)
         row["stress_span"] = revolutions - stress.shape[1] + _ends(stress.shape[1], length)
-        judged = in_statistic(run, "blade_von_mises")
+        judged = in_statistic(run, "blade_revolution_von_mises")
         if run["status"] == RunStatus.DIVERGED:
             judged = np.full_like(judged, np.nan)
         statistic = stress_statistic(judged, yield_stress)

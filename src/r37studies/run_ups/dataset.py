@@ -11,8 +11,8 @@ from r37core.base.dataset_file import Variable, dataset_of
 from r37core.base.io import readable
 from r37core.results.joining import Along, join
 from r37core.results.variables import AXES as RESPONSE_AXES
-from r37core.results.variables import OF_STRESS, STATUS
-from r37core.results.variables import VARIABLES as RESPONSE
+from r37core.results.variables import OF_STRESS
+from r37core.time_integration import speed_arrays as of_run
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
@@ -25,11 +25,11 @@ VARIABLES = {
     "revolutions_before": Variable((), "1", "revolutions at the start speed, in which the casing becomes lobed", "i4"),
     "revolutions_after": Variable((), "1", "revolutions at the stop speed, beyond the one in which the change ends", "i4"),
     "worn": Variable((), "1", "1: the lining is worn by the same run-up, done once before", "i1"),
-    **STATUS,
+    **of_run.STATUS,
     "yield_stress": OF_STRESS["yield_stress"],
     "largest_stress_range": Variable((), "Pa", "largest range of the stress of a node, along its deviator's largest change"),
     "miner_sum": Variable((), "1", "share of the life that the run-up's stress cycles use, by Miner's rule"),
-    **{name: RESPONSE[name] for name in ("largest_normal_force", "casing_hits", "contact_work", "damping_loss")},
+    **{name: of_run.ARRAYS[name] for name in ("largest_normal_force", "casing_hits", "contact_work", "damping_loss")},
     "stiffness_work": Variable((), "J", "energy that the change of the stiffness with the speed brings to the vibration"),
     "energy_change": Variable((), "J", "energy of the vibration at the end"),
     "energy_residual": Variable((), "J", "energy change minus both works plus damping loss"),
@@ -67,16 +67,10 @@ def write_run_ups(files: Mapping[tuple[str, ...], Path | str], file: Path | str,
 @contextmanager
 def _opened(file: Path | str) -> Iterator[xr.Dataset]:
     """The dataset of one run-up."""
-    values = read_speed(file)
+    values = read_speed(file, VARIABLES)
     with readable(file):
-        revolutions = len(values["speed"])
-        for kind in ("rms", "maximum"):
-            if values[kind].shape != (revolutions, len(TIP_POINTS), len(DIRECTIONS)):
-                raise ValueError(f"{kind} is not of {revolutions} revolutions")
-            values |= {f"{kind}_{name}": values[kind][:, :, column] for column, name in enumerate(DIRECTIONS)}
-        values["revolution"] = np.arange(1, revolutions + 1)
+        values["revolution"] = np.arange(1, len(values["speed"]) + 1)
         if "amplitude" in values:
-            values["amplitude"], values["amplitude_tangential"] = values["amplitude"].swapaxes(0, 1)
             values["engine_order"] = np.arange(values["amplitude"].shape[-1])
     yield dataset_of(VARIABLES, values, AXES, {"tip_point": list(TIP_POINTS)})
 

@@ -11,8 +11,9 @@ from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator
 from r37core.stress.statistic import UNKNOWN, Strengths
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.kept_numbers import KEPT, amplitudes, append_rotation
+from r37core.time_integration.kept_numbers import KEPT, amplitudes, append_rotation, in_directions
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
+from r37core.time_integration.speed_arrays import SPECTRUM
 from r37core.time_integration.status import RunStatus
 from r37studies.run_ups.damage import largest_damage, operator_numbers
 
@@ -33,13 +34,8 @@ def record_run_up(
 ) -> dict[str, np.ndarray]:
     """Do a run-up, and keep of every whole revolution what is asked for in `results`.
 
-    Always: `status`, `diverged_revolution` and `yield_stress` (Pa, as given); `speed` (rad/s, the mean of the revolution) and
-    `time` (s, at its end), shape (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS.
-    `amplitude` (m), shape (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion;
-    `max_von_mises` (Pa) and `max_wear` (m, by the end of the constant-speed segment that the revolution ends in), shape
-    (revolutions,). With fatigue: `largest_stress_range` (Pa) and `miner_sum`, the share of the life that is used, by these
-    `strengths`, infinite of a run that diverges. Such a run
-    has the revolutions before; one that diverges while it wears the lining is that of the lining as new.
+    Returned are arrays of dataset.VARIABLES. `miner_sum` is by these `strengths`, and infinite of a run that diverges. Such
+    a run has the revolutions before; one that diverges while it wears the lining is that of the lining as new.
     """
     orders, run_up, choice = highest_order if "spectrum" in results else None, integration.run_up, integration.choice
     diverged = False
@@ -147,14 +143,14 @@ class _Revolutions:
         reduced = {
             "speed": 2.0 * np.pi / lasting,
             "time": time,
-            "rms": np.sqrt(np.mean(samples**2, axis=1)),
-            "maximum": np.abs(samples).max(axis=1, initial=0.0),
+            **in_directions("rms", np.sqrt(np.mean(samples**2, axis=1))),
+            **in_directions("maximum", np.abs(samples).max(axis=1, initial=0.0)),
             "max_wear": arrays["wear"][:, -1],
         }
         if self.highest_order is not None:
             # of the leading edge, its directions before the samples
-            motion = np.moveaxis(samples[:, :, 0, KEPT], 1, 2)
-            reduced["amplitude"] = amplitudes(motion)[..., : self.highest_order + 1].astype(np.float32)
+            kept = amplitudes(np.moveaxis(samples[:, :, 0, KEPT], 1, 2))[..., : self.highest_order + 1].astype(np.float32)
+            reduced |= zip(SPECTRUM, kept.swapaxes(0, 1), strict=True)
         if self.stress is not None:
             reduced["max_von_mises"] = largest_stress(self.stress, arrays["coordinates"], arrays["bound"])
         self.reduced.append(reduced)

@@ -14,7 +14,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import write_speed
 
 from .choice import RunUpChoice
-from .dataset import write_run_ups
+from .dataset import VARIABLES, write_run_ups
 from .integration import RunUpIntegration
 from .revolutions import record_run_up
 from .tables import rate_table, run_up_table
@@ -36,7 +36,7 @@ def record(input: Any, output: Any, params: Any) -> None:
         yield_stress=params.yield_stress,
         strengths=from_plain(Strengths, params.strengths),
     )
-    write_speed(result, output.run_up, params.provenance)
+    write_speed(result, output.run_up, params.provenance, VARIABLES)
 
 
 def join(input: Any, output: Any, params: Any) -> None:

@@ -8,9 +8,10 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.base.dataset_file import about, read_dataset
+from r37core.base.dataset_file import read_dataset
 from r37core.base.rounding import rounded_to
 from r37core.base.units import shown_unit, unit_of
+from r37core.base.variable import about
 from r37core.results.closing import counted
 from r37studies.surrogate.designs import Design, best_first, not_dominated
 

@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import Variable, about, dataset_of, read_dataset
+from r37core.base.dataset_file import dataset_of, read_dataset
+from r37core.base.variable import Variable, about
 from r37core.results.regions import judged
-from r37core.results.variables import AXES, OF_KIND
+from r37core.results.variables import AXES
+from r37core.time_integration.speed_arrays import OF_KIND
 
 from .choice import MOTIONS
 from .states import SweptStates, levels_of

@@ -9,9 +9,9 @@ import xarray as xr
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted
 from r37core.results.joining import Along
-from r37core.results.variables import STATUS
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.time_integration.simulate import TIP_POINTS
+from r37core.time_integration.speed_arrays import STATUS
 from r37studies.tip_timing import arrival_times
 
 from .record import Record, revolutions_of

@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import SPEED_RPM, Variable, about
+from r37core.base.dataset_file import SPEED_RPM
 from r37core.base.io import readable
 from r37core.base.units import RPM, si_name
+from r37core.base.variable import Variable, about
 from r37core.results.columns import ENDS
 from r37core.results.danger import ratio_to_yield
 from r37core.results.measures import leading_edge, peak_of
