@@ -101,24 +101,13 @@ def test_a_design_of_a_scene_is_that_scene(config):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        (
-            {"variables": ["stagger_deg"]},
-            r"search.variables: found \['stagger_deg'\]; allowed: mapping of names, .* list of number",
-        ),
-        ({"objectives": "lined"}, "search.objectives: found 'lined'; allowed: mapping of names, .* with the keys measure"),
-        ({"constraints": 3}, "search.constraints: found 3; allowed: mapping of names, .* with the keys measure, scenes"),
-        ({"tolerances": 5}, "search.tolerances: found 5; allowed: mapping with the keys of_scenes, of_blades, members"),
-        (
-            {"variables": {"casing.clearance_m": [1, 2]}},
-            "unknown key casing.clearance_m; .* in a search as scene.casing.clearance_m",
-        ),
-        ({"variables": {"stagger_deg.tip": [2, -2]}}, "r37.run: search.variables.stagger_deg.tip: found .*a lower and a h"),
-        ({"objectives": {"lined": {"scenes": ["direct"]}}}, "r37.run: search.objectives.lined.scenes: found 'direct'"),
-        ({"designs": 1, "first": 1}, "r37.run: search.designs: found 1; allowed"),
+        ({"variables": ["stagger_deg"]}, r"variables: found \['stagger_deg'\]; allowed: mapping of names, .* list of number"),
+        ({"variables": {"stagger_deg.tip": [2, -2]}}, "variables.stagger_deg.tip: found .*a lower and a h"),
+        ({"objectives": {"lined": {"scenes": ["direct"]}}}, "objectives.lined.scenes: found 'direct'"),
     ],
 )
 def test_what_cannot_be_searched_is_told(config, changes, message):
-    with pytest.raises(r37.ConfigError, match=message):
+    with pytest.raises(r37.ConfigError, match=f"r37.run: search.{message}"):
         r37.run("Ref", "abradable", SPEEDS, search={**SEARCH, **changes}, config=config)
 
 
