@@ -80,19 +80,6 @@ def test_the_gap_follows_the_table_in_both_engines():
     assert DIRECT.grown.casing.change == ()
 
 
-@pytest.mark.parametrize(
-    ("table", "message"),
-    [
-        ({"revolutions": [0, 5, 5], "change_m": [0, 0, 0]}, "ascending numbers, the first of them 0"),
-        ({"revolutions": [0, 5], "change_m": [0, 0, 0]}, "3 numbers for 2 revolutions"),
-        ({"revolutions": [0, 5], "change_m": [1e-4, 0]}, "the clearance there is clearance_m"),
-    ],
-)
-def test_a_wrong_table_over_revolutions_is_refused(table, message):
-    with pytest.raises(ConfigError, match=message):
-        checked_scene({"casing": {"clearance_m": 1e-4, "clearance_over_revolutions": table}})
-
-
 def run_of(model, scene, choice=SHORT, engine="compiled"):
     """Samples and totals of a run at 1000 rad/s."""
     _, state, record = whole_run(model, 1000.0, scene, choice, engine=engine)
@@ -281,27 +268,6 @@ def test_keys_reach_their_fields():
     assert growth.opening(np.array([0.5, 1.5, 2.0]) * np.pi) == pytest.approx([0.5e-5, -0.5e-5, -2e-5])
     with pytest.raises(ValueError, match=r"casing_growth: given up to 6\.28\d* rad/s; needed up to 7 rad/s"):
         growth.opening(np.array([1.0, 7.0]))
-
-
-@pytest.mark.parametrize(
-    ("casing", "message"),
-    [
-        ({}, r"casing: found neither clearance_m nor clearance; allowed: one of"),
-        ({"clearance_m": 1e-4, "clearance": COLD}, r"casing\.clearance: found clearance_m and clearance; allowed: one of"),
-        (growth_of(growth_m=[0, 1e-5]), "casing_growth: found neither speeds_rad_s nor speeds_rpm"),
-        (growth_of(speeds_rad_s=[0, 9], speeds_rpm=[0, 9], growth_m=[0, 1e-5]), "found speeds_rad_s and speeds_rpm"),
-        (growth_of(speeds_rad_s=[5, 9], growth_m=[0, 1e-5]), r"speeds_rad_s: found \[5.*: ascending .* first of them 0"),
-        (growth_of(speeds_rpm=[0, 9, 9], growth_m=[0, 1e-5, 0]), r"casing_growth\.speeds_rpm: found .*ascending"),
-        (growth_of(speeds_rpm=[0, 9], growth_m=[0, 1e-5, 0]), r"growth\.growth_m: found 3 .* for 2 .*: one for each"),
-        (
-            growth_of(speeds_rpm=[0, 9], growth_m=[1e-5, 0]),
-            r"casing_growth\.growth_m\.0: found 1e-05 at the first of speeds_rpm; allowed: 0",
-        ),
-    ],
-)
-def test_a_clearance_that_is_none_is_refused(casing, message):
-    with pytest.raises(ConfigError, match=message):
-        checked_scene({"casing": casing})
 
 
 def test_growth_of_a_casing_reaches_the_highest_speed(config_copy):

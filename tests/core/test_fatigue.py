@@ -10,7 +10,6 @@ from defaults import IntegrationChoice
 from integration_cases import DIRECT, NARROW
 
 from r37core.base.dataset_file import read_dataset
-from r37core.config import ConfigError
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
 from r37core.contact.scene import Rotor
 from r37core.fem.stress import recovered_stress
@@ -276,21 +275,6 @@ def test_the_picture_shows_the_region_that_decides(contact, model, mesh, steel, 
     assert list(shares["region"].values)[::2] == ["airfoil", "box"] and judged != float(shares.sel(region="box").item())
     figure = draw_fatigue_map(tmp_path / "mesh.vtu", tmp_path / "rom.nc", read_judged(tmp_path / "1.nc"), "Ref")
     assert "5 to 90% span" in figure.get_suptitle() and f"largest share {judged:.3g}\n" in figure.get_suptitle()
-
-
-@pytest.mark.parametrize(
-    ("keys", "refused"),
-    [
-        ("fatigue_strength_pa: 4e+8", "fatigue_strength_pa alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both"),
-        ("ultimate_strength_pa: 9e+8", "ultimate_strength_pa alone"),
-        ("fatigue_exponent: 5", "fatigue_exponent alone; allowed: with fatigue_strength_pa and ultimate_strength_pa"),
-        ("fatigue_strength_pa: 3e+8, ultimate_strength_pa: 9e+8", r"yield_stress_pa: found 1\.38e\+09; allowed: 3e\+08 to 9"),
-        ("fatigue_strength_pa: 9e+8, ultimate_strength_pa: 9e+8", r"fatigue_strength_pa: found 9e\+08; allowed: less than ult"),
-    ],
-)
-def test_strengths_that_make_no_line_are_refused(with_blades, keys, refused):
-    with pytest.raises(ConfigError, match=rf"blades\.yaml:\d+: Mine\.material: .*{refused}"):
-        with_blades(f"Mine: {{ base: Ref, material: {{ {keys} }} }}", blades=["Mine"]).blades  # noqa: B018
 
 
 def test_strengths_vary_and_change_no_model(with_blades):

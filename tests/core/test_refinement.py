@@ -18,7 +18,6 @@ from r37core.adaptive.steps import refine as refine_step
 from r37core.base.io import Named
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
-from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, command_line_document
 from r37core.config.settings import merged_settings
 from r37core.plans.sweep_plan import Sweep
@@ -63,24 +62,6 @@ def refined(**changes):
 def test_ranges_that_cannot_be_refined(entries, message):
     with pytest.raises(SpeedError, match=message):
         plan_speeds(entries, 8.0)
-
-
-def windowed(**changes):
-    window = {"mode": "1B", "highest_engine_order": 4, "first": 0, "last": 0.1, "step_rad_s": 5}
-    return {"refinement": {"windows": [window | changes]}}
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        (windowed(mode="3B"), r"refinement\.windows\.0\.mode: found '3B'; allowed: one of 1B, 1T, 2B"),
-        (windowed(highest_engine_order=21), r"highest_engine_order: found 21; allowed: at most campbell\.highest_.* \(20\)"),
-        (windowed(first=0.1), r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)"),
-    ],
-)
-def test_refinement_refusals(config_copy, changes, message):
-    with pytest.raises(ConfigError, match=message):
-        load_settings(load_yaml(config_copy / "config/config.yaml") | changes, config_copy)
 
 
 def test_windows_are_looked_at_more_closely():
@@ -328,22 +309,6 @@ def test_file_names_stay_exact_and_in_rad_s_and_rules_have_either_unit(root):
     assert sweep.speeds(PLACE, SimpleNamespace(speeds=files)) == [8000 * RAD_S, 16000.1 * RAD_S]
     settings = on_command_line(root, speeds=[900], speeds_for=[{"scenes": ["direct"], "speeds_rpm": [8000]}])
     assert settings.speed_plans["Ref", "direct"].certain == (8000 * RAD_S,)
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"speeds": [900], "speeds_rpm": [8000]}, r"--config: speeds_rpm: found both speeds and speeds_rpm; allowed: one"),
-        ({"speeds_for": [{"speeds": [900], "speeds_rpm": [8000]}]}, r"speeds_for\.0\.speeds_rpm: found speeds and sp"),
-        ({"speeds_for": [{"blades": ["Ref"]}]}, r"speeds_for\.0: found neither speeds nor speeds_rpm; allowed: one of them"),
-        ({"speeds_rpm": [{"start": 1, "stop": 9e6, "step": 0.01}]}, r"speeds_rpm: .* from 1 to 9e\+06 rpm in steps of 0.01"),
-        ({"speeds_rpm": [8000], "exports": {"stress_speeds_rpm": [9000]}}, r"exports\.stress_speeds_rpm\.0: found 9000; all"),
-        ({"exports": {"stress_speeds_rad_s": "all", "stress_speeds_rpm": [8000]}}, "found both stress_speeds_rad_s and st"),
-    ],
-)
-def test_speeds_rpm_refusals(root, changes, message):
-    with pytest.raises(ConfigError, match=message):
-        on_command_line(root, **changes)
 
 
 def test_histories_at_speeds_in_rpm(root, config_copy):
