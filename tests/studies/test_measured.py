@@ -138,13 +138,13 @@ def test_feature_speed_a_limit_lies_anywhere_between_two_speeds(read):
         ([1, 1, 2, 4], 3.0, 3.5),
         ([4, 3, 1, 1], None, 1.0),
         ([1, 1, 3, 4], None, 4.0),
-        ([1, 3, 2, 1], None, 2.0 + 1.0 / 6.0),
+        ([1, 3, 2, 1, 1], None, 2.0 + 1.0 / 6.0),
         ([1, 3, 3, 1], None, 2.5),
         ([1, 3, np.inf, 1], None, np.inf),
     ],
 )
 def test_feature_speed_of_a_curve(values, limit, speed):
-    assert feature_speed(np.arange(1.0, 5.0), np.array(values, float), limit) == pytest.approx(speed)
+    assert feature_speed(1.0 + np.arange(len(values)), np.array(values, float), limit) == pytest.approx(speed)
 
 
 def test_a_time_signal_is_amplitudes_of_its_engine_orders(read):
@@ -173,7 +173,13 @@ def test_a_profile_is_turned_to_where_it_fits_and_says_when_it_is_backwards(read
     assert "read backwards" in turned_profile(wear, backwards)[1]
     # clearly better: by more than half, and by more than 9
     middles = tuple((np.arange(4) + 0.5) * np.pi / 2.0)
-    for last, deviation, is_backwards in ((0.0, 0.47, True), (0.0, 0.48, False), (1.3, 0.1, True), (1.5, 0.1, False)):
+    for last, deviation, is_backwards in (
+        (0.0, 0.47, True),
+        (0.0, 0.48, False),
+        (1.0, 0.474, False),
+        (1.3, 0.1, True),
+        (1.5, 0.1, False),
+    ):
         four = Points.collected(np.ones(1), np.array([0.0, 3.0, 1.0, last]), np.full(4, deviation), angles=middles)
         profile, remark = turned_profile(np.array([0.0, 1.0, 3.0, 0.0]), four)
         assert profile == pytest.approx([1.0, 3.0, 0.0, 0.0]) and remark.startswith("turned by 90 degrees")
