@@ -10,7 +10,7 @@ from test_interactions import CHOICE, campbell
 
 from r37core.results.columns import MOST_REVOLUTIONS, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from r37core.results.contact_ranges import rows_above_yield
-from r37core.results.danger import moved_by_error, ranges_of
+from r37core.results.danger import danger_of, moved_by_error, ranges_of
 from r37core.results.exceedance import DEVIATIONS, Exceedance, SpeedRange, exceedance_of, joined, length_of, ranges_above
 from r37core.results.interactions import find_interactions
 from r37core.results.ranking import chance_to_be_better, ranking_table, ranks_of, robustness
@@ -57,6 +57,8 @@ def test_speeds_above_yield_by_stress_and_by_its_error():
     assert moved_by_error(response, "max_von_mises_ever", 0.2) == pytest.approx(40.0)
     assert moved_by_error(response, "flat", 0.25) == pytest.approx(200.0 - 100.0 / 1.1)
     assert np.isnan(moved_by_error(response, "flat", np.nan))
+    # without stress nothing is known
+    assert np.isnan(list(danger_of(response[["status", "lined"]]).values())).all()
 
 
 @pytest.mark.parametrize("step", [1.0, 5.0, 10.0])
