@@ -134,7 +134,7 @@ def test_a_changed_base_runs_what_depends_on_it_and_nothing_else(project):
 
 
 SHAPES = {"whole_blade_model", "mode_shapes", "worst_shapes", "modes_figure", "worst_shapes_figure"}
-SIGNALS = {"signals_of_run", "signals_dataset", "contact_force_figure"}
+SIGNALS = {"signals_of_run"}
 
 
 def test_shapes_run_no_simulation(project):
@@ -153,7 +153,7 @@ def test_signals_run_no_simulation_of_the_sweep(project):
     """At named speeds they are runs of their own; a gauge more runs those again and makes the model of the whole blade."""
     overlay(project, "config.yaml", "signals: { speeds_rad_s: [1151.5] }")
     jobs = planned_outputs(project)
-    assert set(jobs) == SIGNALS | {"configuration", "explorer"}
+    assert set(jobs) == SIGNALS | {"configuration"}
     assert jobs["signals_of_run"] == per_run("signals.nc")
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}

@@ -60,8 +60,7 @@ def test_a_blade_of_another_program_has_modes_and_signals_at_its_interactions(se
     sweep = Sweep(settings_with(entry, config=config, blades=("Ref", "Fan")))
     wanted = targets(sweep)
     runs = [{"blade": blade, "scene": scene} for blade in signals for scene in ("abradable", "direct")]
-    for pattern in ("<results>/{blade}/{scene}/signals.nc", "<results>/figures/contact_force_{blade}__{scene}.png"):
-        assert wanted[pattern] == runs
+    assert wanted["<results>/{blade}/{scene}/signals.nc"] == runs
     for pattern in ("<results>/shapes/{blade}/modes", "<results>/figures/shapes_{blade}.png"):
         assert wanted[pattern] == [{"blade": blade} for blade in modes]
     recorded = Signals(sweep)

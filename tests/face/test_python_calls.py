@@ -262,7 +262,7 @@ def test_what_an_instrument_sees_is_what_signals_spectrum_and_wear_have(finished
     ]
     signals = {"speeds_rad_s": SPEEDS[:1], "gauges": {"G1": gauge}, "probes_deg": [30.0]}
     results = r37.run("Ref", "abradable", SPEEDS[:1], measured=measured, signals=signals)
-    run = results["signals"].isel(run=0)
+    run = results.signals("Ref", "abradable").isel(speed=0)
     later = run.sel(turn=run.turn > 0.5 * run.turn.max())
     arrivals = run.arrival_displacement.isel(tip_point=0, probe=0)
     arrivals = arrivals[arrivals.sizes["revolution"] // 2 :]

@@ -35,8 +35,7 @@ def rules(root):
         if steps:
             found[rule] = ("step", steps[0])
     drawn = {figure.rule: figure.draw.rpartition(".")[0] for figure in FIGURES}
-    found |= {rule: ("step", "r37core.figures.steps.draw", module) for rule, module in drawn.items()}
-    return found | {"tables": ("step", "r37studies.trials.steps.report", "r37studies.trials.tradeoff_tables")}
+    return found | {rule: ("step", "r37core.figures.steps.draw", module) for rule, module in drawn.items()}
 
 
 def test_every_rule_of_a_step_names_one_that_is_there(rules):

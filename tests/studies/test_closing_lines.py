@@ -8,7 +8,6 @@ from r37studies.designs import table as designs
 from r37studies.rotors import dataset as rotors
 from r37studies.run_ups import tables as run_ups
 from r37studies.search import dataset as search
-from r37studies.signals import dataset as signals
 from r37studies.tolerances import table as tolerances
 
 
@@ -59,14 +58,6 @@ def test_tolerances(tmp_path):
     assert tolerances.closing(tmp_path) == f"2 interactions in up to 32 members, {count}; {largest}"
     table(tmp_path, "tolerances.csv", **{name: [] for name in (*WHERE, "members", "robust", *ends)})
     assert tolerances.closing(tmp_path).startswith("0 interactions in up to 0 members")
-
-
-def test_signals(tmp_path):
-    for speeds, said in (([1725.0], "1 signal at 1725 rad/s"), ([1725.0, 1330.0], "2 signals at 1330 to 1725 rad/s")):
-        xr.Dataset({"speed": ("run", speeds)}).to_netcdf(tmp_path / "signals.nc")
-        assert signals.closing(tmp_path) == said
-    xr.Dataset().to_netcdf(tmp_path / "signals.nc")
-    assert signals.closing(tmp_path) == "no signal, for no interaction was found"
 
 
 def test_search(tmp_path):

@@ -5,26 +5,20 @@ from itertools import product
 
 import numpy as np
 import pytest
-import xarray as xr
 from box_mesh import box_mesh
 from defaults import IntegrationChoice
 from integration_cases import with_static_modes
 from scipy.optimize import brentq
 from test_run_statistics import FREE, SPEED, with_tip
 
-from r37core.base.dataset_file import read_dataset, write_dataset
-from r37core.base.io import InputFileError
-from r37core.figures.style import save
-from r37core.results.joining import join_runs
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.stress.gauge import Gauge
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
 from r37studies.gauges import gauge_rows
-from r37studies.signals.dataset import RUNS, signals_dataset
-from r37studies.signals.figures import draw_contact_forces, draw_tip_timing
-from r37studies.signals.record import Record, record_signals, revolutions_of
+from r37studies.signals.dataset import signals_dataset
+from r37studies.signals.record import Record, record_signals
 from r37studies.tip_timing import arrival_times
 
 
@@ -121,7 +115,6 @@ def test_a_free_oscillation_is_recorded(monkeypatch):
     choice = IntegrationChoice(1e-7, 5, 620, integrator="exact_modal")
     record = record_signals(model, SPEED, FREE, choice, np.full((1, model.to_reduced.shape[0]), 7.0), 3)
     assert (len(record.turn), record.turn[0], record.turn[-1]) == (3 * 620, pytest.approx(2.0 + 1 / 620), 5.0)
-    assert list(revolutions_of(record)) == [3, 4, 5]
     wave = 1e-4 * np.cos(10.0 * 2.0 * np.pi * record.turn)
     np.testing.assert_allclose(record.normal, np.outer(wave, [1.0, 3.0]), atol=2e-7)
     np.testing.assert_allclose(record.tangential, np.outer(wave, [0.5, 2.0]), atol=2e-7)
@@ -189,22 +182,16 @@ PLACE = np.array([0.2, 0.01, 0.02])
 TIP = RecoveryNodes(np.arange(2), np.array([[0.25, 0.0, 0.0], [0.24, 0.01, 0.03]]), np.zeros((2, 3, 1)), np.zeros((2, 3, 1)))
 
 
-def record_of(turns, last=None, gauges=1):
+def record_of(turns, gauges=1):
     turn = np.arange(1, turns * 50 + 1) / 50
     wave = 1e-3 * np.sin(2.0 * np.pi * 4.0 * turn)
-    kept = slice(-(last or turns) * 50, None)
-    force, clearance = 100.0 * np.floor(turn)[kept], 1e-4 + wave[kept]
-    return Record(turn[kept], np.outer(wave, [1, 2])[kept], np.outer(wave, [0.5, 1])[kept],
-                  np.outer(wave, np.ones(gauges))[kept], force, clearance, RunStatus.COMPLETED)  # fmt: skip
+    normal, tangential, strain = (np.outer(wave, shares) for shares in ([1, 2], [0.5, 1], np.ones(gauges)))
+    return Record(turn, normal, tangential, strain, 100.0 * np.floor(turn), 1e-4 + wave, RunStatus.COMPLETED)
 
 
-@pytest.fixture
-def dataset():
+def test_dataset_of_a_scene():
     records = {1200.0: record_of(12), 900.5: record_of(12)}
-    return signals_dataset(records, {1200.0: "1B/5"}, {"root": PLACE}, [90.0, 10.0], TIP)
-
-
-def test_dataset_of_a_scene(dataset):
+    dataset = signals_dataset(records, {1200.0: "1B/5"}, {"root": PLACE}, [90.0, 10.0], TIP)
     assert dict(dataset.sizes) == {"speed": 2, "tip_point": 2, "turn": 600, "gauge": 1, "axis": 3, "probe": 2, "revolution": 12}
     assert list(dataset["interaction"].values) == ["1B/5", ""]
     assert float(dataset["speed_rpm"].sel(speed=1200.0)) == pytest.approx(11459.16, abs=0.01)
@@ -220,50 +207,3 @@ def test_dataset_of_a_scene(dataset):
     bare = signals_dataset({1000.0: record_of(3, gauges=0)}, {}, {}, [], TIP)
     assert set(bare.data_vars) == {"normal", "tangential", "contact_force", "clearance", "casing_angle", "status"}
     assert dict(signals_dataset({}, {}, {"root": PLACE}, [10.0], TIP).sizes) == {"speed": 0}
-
-
-def test_datasets_are_joined_by_run(dataset, tmp_path):
-    """Three scenes: one keeps fewer revolutions and has no gauge, one has no interaction."""
-    other = signals_dataset({1200.0: record_of(12, last=5, gauges=0)}, {}, {}, [10.0, 90.0], TIP)
-    empty = signals_dataset({}, {}, {}, [], TIP)
-    files = {}
-    for pair, one in {("Ref", "abradable"): dataset, ("Ref", "direct"): other, ("L50", "direct"): empty}.items():
-        files[pair] = tmp_path / f"{'_'.join(pair)}.nc"
-        write_dataset(one, files[pair], {})
-    join_runs(list(files.values()), files, RUNS, tmp_path / "signals.nc", "Signals", "draft")
-    joined = read_dataset(tmp_path / "signals.nc")
-    assert joined.sizes["run"] == 3
-    assert joined.attrs["fidelity"] == "draft"
-    assert list(joined["scene"].values) == ["abradable", "abradable", "direct"]
-    picked = joined.set_index(run=["blade", "scene", "speed"]).sel(run=("Ref", "abradable", 900.5))
-    alone = dataset["tangential"].sel(speed=900.5)
-    xr.testing.assert_equal(picked["tangential"].reset_coords(drop=True), alone.reset_coords(drop=True))
-    np.testing.assert_array_equal(joined["gauge_place"].isel(run=0, gauge=0), PLACE)
-    short = joined.isel(run=2)
-    assert np.isnan(short["normal"].sel(turn=slice(0, 7))).all() and np.isnan(short["strain"]).all()
-    assert np.isfinite(short["normal"].sel(turn=slice(7.01, 12))).all()
-    write_dataset(other.isel(speed=[]), tmp_path / "empty.nc", {})
-    join_runs([tmp_path / "empty.nc"], [("L50", "direct")], RUNS, tmp_path / "none.nc", "Signals", "draft")
-    assert read_dataset(tmp_path / "none.nc").sizes["run"] == 0
-    files["Ref", "direct"].write_bytes(b"damaged")
-    with pytest.raises(InputFileError, match=r"Ref_direct\.nc: cannot be read"):
-        join_runs(list(files.values()), files, RUNS, tmp_path / "signals.nc", "Signals", "draft")
-
-
-def test_signals_are_drawn(dataset, tmp_path):
-    """Two speeds in rows."""
-    forces = draw_contact_forces(dataset, "Ref, abradable")
-    upper, _, beside, _ = forces.axes
-    assert np.all(np.diff(upper.get_lines()[0].get_xdata()) > 0.0) and beside.get_ylabel() == "mm"
-    assert upper.get_ylabel() == "1B/5\n1200 rad/s, 11459 rpm\nN"
-    timing = draw_tip_timing(dataset, "Ref, abradable")
-    expected = 1e3 * dataset["arrival_displacement"].sel(speed=900.5, tip_point="leading_edge")
-    lower = timing.axes[1].get_lines()
-    assert [line.get_label() for line in lower] == ["90 degrees", "10 degrees"]
-    for line, probe in zip(lower, expected["probe"].values, strict=True):
-        np.testing.assert_array_equal(line.get_ydata(), expected.sel(probe=probe))
-    lost = dataset.assign(contact_force=np.nan * dataset["contact_force"])
-    assert draw_contact_forces(lost, "Ref").axes[0].texts
-    nothing = signals_dataset({}, {}, {}, [], TIP)
-    for figure in (forces, timing, *(draw(nothing, "Ref, direct") for draw in (draw_contact_forces, draw_tip_timing))):
-        save(figure, tmp_path / "one.png")

@@ -1,20 +1,17 @@
-"""signals.nc: signals of one blade and scene, and of all."""
+"""signals.nc: signals of one blade and scene."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
-from r37core.results.closing import counted
-from r37core.results.joining import Along
+from r37core.base.dataset_file import SPEED, Variable, dataset_of
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.speed_arrays import STATUS
 from r37studies.tip_timing import arrival_times
 
-from .record import Record, revolutions_of
+from .record import Record
 
 VARIABLES = {
     "normal": Variable(("tip_point", "turn"), "m", "displacement along the casing's normal", "f4"),
@@ -34,10 +31,6 @@ VARIABLES = {
 }
 """Dimensions are those beyond the run."""
 
-RUNS = Along(rows="run", dim="speed", coordinates=("blade", "scene", "speed", "speed_rpm", "interaction"))
-"""Signals of all blades and scenes: those of each speed are a run; NaN where fewer revolutions are kept."""
-
-_BLADE_AXES = ("x", "y", "z")
 AXES = {
     "turn": Variable(("turn",), "1", "time in revolutions since the start; times 2 pi / speed in s"),
     "revolution": Variable(("revolution",), "1", "number of the revolution", "i8"),
@@ -62,7 +55,7 @@ def signals_dataset(
     if not speeds:
         return xr.Dataset(coords={"speed": ("speed", np.empty(0))})
     first = records[speeds[0]]
-    numbers = np.array(revolutions_of(first))
+    numbers = np.unique(np.ceil(first.turn)).astype(int)
     arrivals = [_arrivals(record, speed, np.radians(probes), numbers, tip) for speed, record in records.items()]
     kept = ("normal", "tangential", "strain", "contact_force", "clearance")
     signals = {name: [getattr(record, name).T for record in records.values()] for name in kept}
@@ -78,7 +71,7 @@ def signals_dataset(
         "revolution": numbers,
         "probe": probes,
     }
-    labels = {"tip_point": list(TIP_POINTS), "gauge": np.array(list(gauges), dtype=object), "axis": list(_BLADE_AXES)}
+    labels = {"tip_point": list(TIP_POINTS), "gauge": np.array(list(gauges), dtype=object), "axis": ["x", "y", "z"]}
     dataset = dataset_of(VARIABLES, values, {"speed": SPEED, **AXES}, labels, ("speed",))
     dataset = dataset.assign_coords(interaction=("speed", [names.get(speed, "") for speed in speeds]))
     dataset = dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
@@ -97,12 +90,3 @@ def _arrivals(
         arrivals.append(arrived)
         displacements.append(radius * speed * (arrived - rigid))
     return np.array(arrivals), np.array(displacements)
-
-
-def closing(results: Path) -> str:
-    """Closing line: how many signals there are, and of which speeds."""
-    signals = read_dataset(results / "signals.nc")
-    if not signals.sizes.get("run"):
-        return "no signal, for no interaction was found"
-    ends = dict.fromkeys(f"{speed:.6g}" for speed in (signals["speed"].values.min(), signals["speed"].values.max()))
-    return f"{counted(signals.sizes['run'], 'signal')} at {' to '.join(ends)} rad/s"

@@ -8,14 +8,13 @@ from r37core.config import Settings, si_form
 from r37core.config.cross_checks import slow_run_can_be_done
 from r37core.config.settings import length_of_run
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure
+from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
 from r37core.stress.gauge import Gauge
 
 from .section import SECTION, SignalSection
 
 SIGNALS_OF_RUN = "<results>/{blade}/{scene}/signals.nc"
-DATASET = "<results>/signals.nc"
 
 
 @dataclass(frozen=True)
@@ -74,10 +73,6 @@ class Signals:
         return self._section.revolutions or self.sweep.settings.scenes[wildcards.scene].revolutions
 
 
-def _runs(sweep: Sweep) -> paths.Wildcards:
-    return paths.run_keys(Signals(sweep).runs)
-
-
 def signals_have_runs(settings: Settings) -> None:
     """Signals are wanted of blades that are there and of some scene, and are no longer than its runs."""
     wanted, documents = settings.section(SECTION), settings.documents
@@ -109,29 +104,5 @@ EXTENSION = Extension(
     name="signals",
     section=SECTION,
     checks=(signals_have_runs,),
-    targets=lambda sweep: {SIGNALS_OF_RUN: _runs(sweep), DATASET: [{}] if _runs(sweep) else []},
-    figures=(
-        Figure(
-            rule="contact_force_figure",
-            name="contact_force_{blade}__{scene}",
-            runs=_runs,
-            draw="r37studies.signals.figures.draw_contact_forces",
-            files={"signals": SIGNALS_OF_RUN},
-            label="contact force",
-            caption="Blade {blade} in scene {scene}: normal force on the tip, all contact nodes together, over the casing "
-            "angle of its leading edge, at each speed. Grey: clearance of the undeformed leading edge, which lobes make "
-            "smaller.",
-        ),
-        Figure(
-            rule="tip_timing_figure",
-            name="tip_timing_{blade}__{scene}",
-            runs=lambda sweep: _runs(sweep) if Signals(sweep).probes else [],
-            draw="r37studies.signals.figures.draw_tip_timing",
-            files={"signals": SIGNALS_OF_RUN},
-            label="tip timing",
-            caption="Blade {blade} in scene {scene}: tangential displacement of the leading edge that tip timing reports, over "
-            "the revolutions since the start, at each speed; a curve for each probe.",
-        ),
-    ),
-    closing="r37studies.signals.dataset.closing",
+    targets=lambda sweep: {SIGNALS_OF_RUN: paths.run_keys(Signals(sweep).runs)},
 )

@@ -1,6 +1,5 @@
 """The time signals of one run: both ends of the tip, its contact force and strain gauges, at every sample."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -74,8 +73,3 @@ def _clearance(simulation: Simulation, turn: np.ndarray) -> np.ndarray:
     angles = casing.tip.theta[0] - 2.0 * np.pi * turn
     times = turn * 2.0 * np.pi / casing.grid.speed
     return casing.clearance[0] - casing.scene.casing.lobe(angles, times, casing.rise_time)
-
-
-def revolutions_of(record: Record) -> Sequence[int]:
-    """Numbers, from 1, of the revolutions that a record has."""
-    return range(int(np.ceil(record.turn[0])), int(np.ceil(record.turn[-1])) + 1)

@@ -3,12 +3,10 @@
 from typing import Any
 
 from r37core.base.dataset_file import read_dataset, write_dataset
-from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
-from r37core.results.joining import join_runs
 from r37core.results.regions import read_judged
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
@@ -16,7 +14,7 @@ from r37core.stress.gauge import Gauge
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37studies.gauges import gauge_rows
 
-from .dataset import RUNS, signals_dataset
+from .dataset import signals_dataset
 from .record import record_signals
 
 
@@ -43,8 +41,3 @@ def record(input: Any, output: Any, params: Any) -> None:
     records = {speed: record_signals(model, speed, scene, choice, rows, params.revolutions) for speed in speeds}
     tip = read_reduced_model(input.rom).tip_lines[params.tip_line]
     write_dataset(signals_dataset(records, named, positions, params.probes, tip), output.signals, params.provenance)
-
-
-def gather(input: Any, output: Any, params: Any) -> None:
-    """Join signals. Inputs: signals, of each blade and scene. Params: runs, fidelity. Output: dataset (nc)."""
-    join_runs(as_list(input.signals), params.runs, RUNS, output.dataset, "Signals of rubbing blades over time", params.fidelity)

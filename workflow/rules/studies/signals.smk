@@ -22,16 +22,3 @@ use rule step as signals_of_run with:
         probes=recorded.probes,
         tip_line=lambda wildcards: settings.scenes[wildcards.scene].tip_line,
         provenance=sweep.provenance,
-
-
-use rule step as signals_dataset with:
-    input:
-        signals=paths.filled({rules.signals_of_run.output[0]: paths.run_keys(recorded.runs)}),
-    output:
-        dataset=signals_plan.DATASET,
-    log:
-        "<logs>/signals.log",
-    params:
-        **step("r37studies.signals.steps.gather"),
-        runs=recorded.runs,
-        fidelity=settings.fidelity_name,
