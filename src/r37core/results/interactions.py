@@ -1,6 +1,6 @@
 """Interactions: peaks of the response over speed, matched with modes and engine orders; ranges above yield on a bare casing."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -15,6 +15,7 @@ from scipy.signal import find_peaks
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
+from .closing import interaction_title
 from .columns import DROP_WITHIN, INTERACTIONS, above_yield, names
 from .contact_ranges import ranges_without_peak, rows_above_yield
 from .datasets import response_of
@@ -84,6 +85,11 @@ def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: Int
             reach = response.isel(speed=slice(low + begin, low + end + 1))
             interactions.append(_interaction(response.isel(speed=slice(high + 1)), peak_index, reach, group))
     return interactions
+
+
+def titles(interactions: Iterable[Interaction]) -> dict[float, str]:
+    """Peak speed (rad/s) -> title."""
+    return {row["peak_speed_rad_s"]: interaction_title(row["mode"], row["engine_order"]) for row in interactions}
 
 
 def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, choice: InteractionChoice) -> list[_Peak]:
