@@ -1,4 +1,4 @@
-"""Pages of the API, docs/api/*.rst: one for each public name of r37, and one for each package or module of r37core."""
+"""Pages of the API, docs/api/*.rst: one for each public name of r37, and one for each folder of the packages below it."""
 
 import inspect
 import re
@@ -8,7 +8,9 @@ from pathlib import Path
 from sphinx.pycode import ModuleAnalyzer
 from written_pages import write_folder
 
-CORE = Path(__file__).parent.parent.parent / "src" / "r37core"
+SOURCE = Path(__file__).parent.parent.parent / "src"
+BELOW = ("r37core", "r37imports", "r37studies")
+"""Packages that r37 stands on."""
 
 INSIDE = "above, check, designs, is_family"
 """Members of the classes of r37 that its own calls alone use."""
@@ -19,15 +21,17 @@ SECTIONS = {"Args": "Arguments", "Returns": "Returns", "Raises": "Raises", "Exam
 
 def modules(package):
     """Dotted names of a module, or of a package and all that is in it."""
-    files = sorted((CORE / package).rglob("*.py")) if (CORE / package).is_dir() else [CORE / f"{package}.py"]
-    names = (".".join(file.relative_to(CORE.parent).with_suffix("").parts).removesuffix(".__init__") for file in files)
+    path = SOURCE.joinpath(*package.split("."))
+    files = sorted(path.rglob("*.py")) if path.is_dir() else [path.with_suffix(".py")]
+    names = (".".join(file.relative_to(SOURCE).with_suffix("").parts).removesuffix(".__init__") for file in files)
     return sorted(name for name in names if "._" not in name)
 
 
 def packages():
-    """Names of the packages and modules of r37core."""
-    found = (path.stem for path in CORE.iterdir() if (path / "__init__.py").exists() or path.suffix == ".py")
-    return sorted(name for name in found if not name.startswith("_"))
+    """Dotted names of the folders and modules of the packages."""
+    found = (path for package in BELOW for path in (SOURCE / package).iterdir())
+    found = (path for path in found if (path / "__init__.py").exists() or path.suffix == ".py")
+    return sorted(f"{path.parent.name}.{path.stem}" for path in found if not path.stem.startswith("_"))
 
 
 def heading(text, underline):
@@ -103,7 +107,7 @@ def name_page(name, value):
 
 
 def core_page(package):
-    """A package of r37core, module by module; a name stands where it is defined."""
+    """A folder or module of a package, module by module; a name stands where it is defined."""
     first, *others = modules(package)
     parts = [heading(first, "="), described(first, "ignore-module-all")]
     for name in others:
@@ -115,7 +119,7 @@ def write_pages(app):
     """Write the pages of all names and packages."""
     pages = {"r37": overview_page()}
     pages |= {f"r37.{name}": name_page(name, value) for name, value in documented().items()}
-    pages |= {f"r37core.{name}": core_page(name) for name in packages()}
+    pages |= {name: core_page(name) for name in packages()}
     write_folder(Path(app.srcdir) / "api", ".rst", pages)
 
 

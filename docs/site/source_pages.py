@@ -4,6 +4,7 @@ import inspect
 from html import escape
 from pathlib import Path
 
+from api_pages import BELOW
 from sphinx.pycode import ModuleAnalyzer
 
 HEAD = '<!doctype html><meta charset="utf-8"><meta name="color-scheme" content="light dark"><title>{}</title><pre>'
@@ -27,7 +28,7 @@ def write_sources(app, exception):
     root = Path(__file__).parent.parent.parent / "src"
     folder = Path(app.outdir) / "source"
     folder.mkdir(exist_ok=True)
-    for file in [*root.glob("r37/*.py"), *root.glob("r37core/**/*.py")]:
+    for file in [*root.glob("r37/*.py"), *(file for package in BELOW for file in root.glob(f"{package}/**/*.py"))]:
         module = ".".join(file.relative_to(root).with_suffix("").parts).removesuffix(".__init__")
         lines = enumerate(escape(file.read_text(encoding="utf-8"), quote=False).split("\n"), 1)
         text = HEAD.format(module) + "\n".join(f"<a id={number}></a>{line}" for number, line in lines)

@@ -11,7 +11,7 @@ from workflow_runs import overlay, own_package, planned, snakemake
 
 import r37
 
-REGISTRY = "src/r37core/product/extensions.py"
+REGISTRY = "src/r37studies/registry.py"
 
 
 def blocks_of(page):
