@@ -133,11 +133,6 @@ def test_no_two_designs_are_near_copies(searches):
         assert smallest_difference([design.values for design in evaluated]) >= NEAR - 1e-4
 
 
-def test_a_batch_spreads_once_its_first_design_is_believed():
-    batches = [propose(SQUARE, tried(first_designs(SQUARE, 8, seed), 1.0), 4, seed) for seed in range(4)]
-    assert np.median([smallest_difference(batch) for batch in batches]) > 3 * NEAR
-
-
 DESIGNS = first_designs(SQUARE, 9, 0)
 KNOWLEDGE = {
     "nothing": [],
@@ -165,13 +160,6 @@ def test_two_designs_decide_nothing_and_without_a_feasible_one_the_next_come_nea
     assert propose(SQUARE, kept, 4, 0) == propose(SQUARE, broken, 4, 0)
     known = with_objectives(DESIGNS, lambda values: (bowl(values),), lambda values: values[1] - 7.9)
     assert max(values[1] for values in propose(SQUARE, known, 2, 0)) > 7.9 > max(values[1] for values in DESIGNS)
-
-
-def test_one_variable_has_room_for_few_designs():
-    line = (SearchVariable("a", 0.0, 1.0),)
-    known = with_objectives(first_designs(line, 64, 0), lambda values: (values[0],))
-    proposed = propose(line, known, 6, 0)
-    assert len({*proposed, *(design.values for design in known)}) == 70
 
 
 def test_of_two_objectives_the_whole_front_is_proposed():
