@@ -102,17 +102,6 @@ def dataset_of(model, modes=10):
     return campbell_dataset(model, speeds=np.linspace(0.0, 2000.0, 21), modes=modes, highest_engine_order=16, **swing)
 
 
-def test_the_dataset_is_the_diagram(model):
-    dataset, of_model = dataset_of(model), campbell_diagram(model, np.linspace(0.0, 2000.0, 21), 10)
-    displacement = dataset["tangential_displacement"].values
-    np.testing.assert_array_equal(dataset["engine_order"], range(1, 17))
-    np.testing.assert_allclose(displacement, np.linspace(-0.01, 0.01, 41), atol=1e-15)
-    at_rest = dynamic_clearance(model, of_model.shapes[:, 0].T, "pressure_edge", displacement)
-    np.testing.assert_array_equal(dataset["dynamic_clearance"], at_rest)
-    np.testing.assert_array_equal(dataset["frequency"], of_model.frequencies)
-    np.testing.assert_array_equal(dataset["crossing_speed"], of_model.crossing_speeds(np.arange(1, 17)))
-
-
 def test_what_a_diagram_cannot_have_is_refused(model):
     assert dataset_of(model, model.size).sizes["mode"] == model.size
     with pytest.raises(ValueError, match=rf"found {model.size + 1}; allowed: up to {model.size}"):

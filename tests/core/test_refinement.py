@@ -236,16 +236,6 @@ def test_a_round_of_a_blade_without_stress(tmp_path):
     assert np.isnan(stress)
 
 
-def test_the_size_of_a_curve_does_not_matter_nor_does_the_order_of_what_is_known():
-    """Not a size far below a tenth, either."""
-    rows = {speed: [0, 1e-3 + 1e-2 * np.sin(0.01 * speed) ** 8, 1e-3, 1e-3] for speed in PLAN.certain}
-    rows[PLAN.certain[3]] = [1, np.nan, np.nan, np.nan]
-    small = {speed: [status, 1e-6 * normal, *others] for speed, (status, normal, *others) in rows.items()}
-    asked_for = next_speeds(GRID, rows, CHOICE)
-    assert asked_for and next_speeds(GRID, small, CHOICE) == asked_for
-    assert next_speeds(GRID, dict(reversed(rows.items())), CHOICE) == asked_for
-
-
 def test_a_window_is_halved_to_the_end():
     """Where a window only touches it is not halved."""
     grid = RefinedRange(1000.0, 1.0, 8, 16)
