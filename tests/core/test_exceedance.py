@@ -50,13 +50,14 @@ def test_speeds_above_yield_by_stress_and_by_its_error():
     """A stress of 1.5 of yield at one speed, in a fifth of the revolutions; an error moves a length up or down."""
     runs = {"status": [0, 0, 0], "max_von_mises_ever": [1.0, 3.0, 1.0], "share_of_revolutions_above_yield": [0.0, 0.2, 0.0]}
     response = xr.Dataset({name: ("speed", values) for name, values in runs.items()}, {"speed": [1000.0, 1100.0, 1200.0]})
-    response = response.assign(yield_stress=2.0, lined=1.0, flat=("speed", [4.0, 1.8, 1.8]))
+    response = response.assign(yield_stress=2.0, lined=1.0, low=("speed", [4.0, 1.8, 1.8]), high=("speed", [4.0, 2.2, 2.2]))
     most, some, ever = ranges_of(response, exceedance_of(response)).values()
     assert (most, some) == ([], [SpeedRange(1025.0, 1175.0, truncated=False)])
     assert ever == [SpeedRange(1025.0, 1175.0, truncated=False)]
     assert moved_by_error(response, "max_von_mises_ever", 0.2) == pytest.approx(40.0)
-    assert moved_by_error(response, "flat", 0.25) == pytest.approx(200.0 - 100.0 / 1.1)
-    assert np.isnan(moved_by_error(response, "flat", np.nan))
+    assert moved_by_error(response, "low", 0.25) == pytest.approx(200.0 - 100.0 / 1.1)
+    assert moved_by_error(response, "high", 0.25) == pytest.approx(200.0 - 75.0 / 0.9)
+    assert np.isnan(moved_by_error(response, "low", np.nan))
     # without stress nothing is known
     assert np.isnan(list(danger_of(response[["status", "lined"]]).values())).all()
 

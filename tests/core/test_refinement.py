@@ -114,13 +114,13 @@ def test_both_flanks_of_a_peak_of_one_speed_are_looked_at():
 
 
 def test_a_value_at_the_share_of_a_peak_belongs_to_it():
-    heights = np.full(len(PLAN.certain), 0.25)
-    heights[9:12] = 0.4, 1.0, 0.5
+    heights = np.full(len(PLAN.certain), 0.1)
+    heights[9:12], heights[40] = (0.2, 0.5, 0.25), 1.0
     rows = {speed: [0, height, 0.0, 0.0] for speed, height in zip(PLAN.certain, heights, strict=True)}
     alone = replace(CHOICE, change=2.0, steep_change=2.0, largest_share=1.0)
-    for share, last in ((0.5, 11), (0.49, 10)):
+    for share, places in ((0.5, (9, 10, 11, 39, 40)), (0.49, (9, 10, 39, 40))):
         asked = next_speeds(GRID, rows, replace(alone, peak=share))
-        assert asked == [speed + 10.0 for speed in PLAN.certain[9 : last + 1]]
+        assert asked == [PLAN.certain[place] + 10.0 for place in places]
 
 
 def test_a_branch_its_peak_and_its_drop_are_found_to_one_grid_step():
