@@ -25,6 +25,7 @@ def alone(tmp_path_factory):
             shutil.copy(CHECKOUT / name, folder / name)
     shutil.rmtree(folder / "config")
     shutil.copytree(CHECKOUT / "tests/config", folder / "config")
+    shutil.copytree(CHECKOUT / "config/schemas", folder / "config/schemas")
     return folder
 
 
