@@ -13,8 +13,8 @@ from r37core.config import ConfigError, read_document
 from r37core.product.extensions import read_settings
 
 
-def refusal_rows(table):
-    """Rows (file, snippet, message) of a table."""
+def refusal_rows(table, *kinds):
+    """Rows (file, snippet, message) of a table; of these kinds alone, where some are given."""
     kind, rows = "", []
     for line in filter(None, Path(table).read_text().splitlines()):
         snippet, _, message = line.partition(" => ")
@@ -22,7 +22,12 @@ def refusal_rows(table):
             rows.append((kind, snippet.strip(), message))
         elif line.startswith("["):
             kind = line.strip("[]")
-    return rows
+    return [row for row in rows if not kinds or row[0] in kinds]
+
+
+def pattern_of(message):
+    """Regular expression of a table's message."""
+    return ".*".join(map(re.escape, message.split(" ... ")))
 
 
 def check_refusal(folder, kind, snippet, message):
@@ -30,6 +35,6 @@ def check_refusal(folder, kind, snippet, message):
     name = "mine.yaml" if kind == "config" else f"config/{kind}.yaml"
     with open(folder / name, "a") as stream:
         stream.write("\n" + snippet.replace(" / ", "\n") + "\n")
-    pattern = ".*".join(map(re.escape, message.split(" ... ")))
+    pattern = pattern_of(message)
     with pytest.raises(ConfigError, match=rf"(^|\n)config/stacking/\S+: {pattern}|(^|\n){re.escape(name)}:\d+: {pattern}"):
         read_settings(folder, *([read_document(folder, name)] if kind == "config" else []))

@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 
 from r37core.base.units import LENGTH_UNITS
+from r37core.blade.sense import TipSense
 from r37core.fem.orientation import Orientation
 
 from .importing.raw_mesh import RawMesh
-from .refusal import ImportRefused, warn_of
+from .refusal import UNLESS, ImportRefused, warn_of
 
 _SPAN_BETWEEN = (1e-3, 5.0)
 _USUAL_SPAN = 0.1
@@ -93,3 +94,38 @@ def _check_side(orientation: Orientation, points: np.ndarray, what: str) -> None
             f"`radial`; rotor_axis, axis_point or radial does not fit the file; fitting: radial: [{x:g}, {y:g}, {z:g}]",
             "radial",
         )
+
+
+def refuse_sense(ends: np.ndarray, sense: TipSense, pressure_forward: bool | None) -> None:
+    """Refuse a rotation, rotor axis or pressure side that the `sense` of a tip contradicts, with ImportRefused.
+
+    `ends`: leading and trailing edge, shape (2, 3); `pressure_forward`: whether the pressure side looks along the rotation,
+    None where only the stagger tells.
+    """
+    fits = None if pressure_forward is None else sense.fits(pressure_forward)
+    if sense.leads() is False:
+        key, remedy = {
+            None: ("rotation", "change rotation, or rotor_axis if it points upstream"),
+            True: ("rotor_axis", "change rotor_axis if it points upstream, else both rotation and pressure_side"),
+            False: ("rotation", "change rotation"),
+        }[fits]
+        leading, trailing = -np.arctan2(ends[:, 1], ends[:, 0])
+        raise ImportRefused(
+            f"found the tip's leading edge at {in_degrees(leading)} and its trailing edge at {in_degrees(trailing)} round the "
+            f"axis, counted in the direction of rotation (stagger {in_degrees(sense.stagger)}); allowed: a leading edge that "
+            f"is ahead, as in compressors and turbines; {remedy}; {UNLESS}",
+            key,
+        )
+    if fits is False:
+        side, other = ("along", "backward") if pressure_forward else ("against", "forward")
+        raise ImportRefused(
+            f"found a pressure side that looks {side} the rotation and is convex (camber {in_degrees(sense.camber)}, stagger "
+            f"{in_degrees(sense.stagger)}); give pressure_side: {other}, or change both rotor_axis and rotation if rotor_axis "
+            f"points upstream; {UNLESS}",
+            "pressure_side",
+        )
+
+
+def in_degrees(angle: float) -> str:
+    """Angle (rad) in words."""
+    return f"{np.degrees(angle):+.1f} degrees"

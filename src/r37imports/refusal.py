@@ -10,6 +10,10 @@ ASKED = "?"
 """Value of a key whose refusal says what fits."""
 
 
+UNLESS = "sense_check: false takes the blade as it is"
+"""Advice on a blade that is odd and right."""
+
+
 class ImportRefused(EntryRefused):
     """A mesh or a set of matrices that cannot be used; the message names the file, what was found and what helps.
 
@@ -43,27 +47,14 @@ def blamed(key: str, file: str | None = None) -> Iterator[None]:
         raise ImportRefused(f"{file}: {error.reason}" if file else error.reason, error.key or key, error.fitting) from None
 
 
-class Refusals:
-    """Several refusals of one file, collected for one message."""
-
-    def __init__(self, file: str):
-        self._file = file
-        self._kept: list[ImportRefused] = []
-
-    @contextmanager
-    def of(self, key: str) -> Iterator[None]:
-        """Keep a refusal that ends the block; `key`: to blame where it names none."""
-        try:
-            with blamed(key):
-                yield
-        except ImportRefused as error:
-            self._kept.append(error)
-
-    def tell(self) -> None:
-        """Raise what was kept as one ImportRefused, which blames the first one's key."""
-        if self._kept:
-            reasons = dict.fromkeys(error.reason for error in self._kept)
-            raise ImportRefused(f"{self._file}: " + "; and ".join(reasons), self._kept[0].key)
+@contextmanager
+def kept(refusals: list[ImportRefused], key: str) -> Iterator[None]:
+    """Keep a refusal that ends the block, for one message about all that is wrong; `key`: to blame where it names none."""
+    try:
+        with blamed(key):
+            yield
+    except ImportRefused as error:
+        refusals.append(error)
 
 
 @contextmanager

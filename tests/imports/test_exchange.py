@@ -11,7 +11,7 @@ import pytest
 from box_mesh import TITANIUM, plate, write_deck, write_with_gmsh
 from defaults import Orientation
 from import_defaults import MeshSource, Where
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 from scipy import constants
 
 from r37core.base.units import LENGTH_UNITS
@@ -34,7 +34,7 @@ from r37imports.importing.import_mesh import _READERS, import_mesh
 from r37imports.importing.meshio_reader import quietly, read_nastran, read_with_meshio
 from r37imports.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, mesh_files
 from r37imports.placement import warn_of_size
-from r37imports.refusal import ImportRefused, MeshWarning, located
+from r37imports.refusal import ImportRefused, MeshWarning
 
 
 def source(file, **changes):
@@ -325,21 +325,9 @@ def second_part(text):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda text: f"*PART, NAME=A\n*END PART\n*PART, NAME=B\n{text}", r"several parts \(A, B\)"),
-        (lambda text: f"*ASSEMBLY\n*INSTANCE, NAME=A, PART=P\n1., 0.\n{text}", "instance A: how it is placed cannot be read"),
-        (lambda text: f"*INSTANCE, NAME=A, PART=P\n*INSTANCE, NAME=B, PART=P\n{text}", r"several instances \(A, B\)"),
         (second_part, r"2 parts that share no node .* nodes lie on others: merge them"),
-        (lambda text: text.replace("NSET=ROOT", "NSET=HUB"), r"root: found no set 'root'; (.|\n)*file: .*HUB"),
-        (lambda text: text.replace("*ELEMENT", "99999, 0.2, 0., 0.\n*ELEMENT"), r"1 of \d+ nodes belong to no .*\(99999\)"),
-        (lambda text: text.replace("C3D20", "C3D27"), "elements of type C3D27; allowed: C3D10"),
-        (lambda text: text.replace("C3D20", "S8R"), "no solid elements"),
         (lambda text: moved(text, 100, "0.5"), r"mid-nodes off their edges in .* edge lengths|inside out or folded"),
-        (lambda text: text.replace("\n2, ", "\n2002, ", 1), "names node 2, which the deck lacks"),
-        (lambda text: text.replace("\n2, ", "\n1, ", 1), "node 1 is given twice, and not alike"),
         (lambda text: renumbered(text, 2, 1), "element 1 is given twice, and not alike"),
-        (lambda text: text.replace("*NODE,", "*NODE, SYSTEM=C,"), "cylindrical or spherical coordinates"),
-        (lambda text: text.replace("*ELEMENT", "*NGEN\n1, 9, 1\n*ELEMENT"), r"found \*NGEN; write the deck with every node"),
-        (lambda text: text.replace("*ELEMENT", "*System\n1, 9, 1\n*ELEMENT"), r"found \*SYSTEM"),
     ],
 )
 def test_unsuitable_decks_are_refused(tmp_path, change, message):
@@ -357,10 +345,6 @@ def test_an_instance_stands_where_its_assembly_puts_it(tmp_path):
     still, placed = read_abaqus(deck(tmp_path, lambda text: text)), read_abaqus(deck(tmp_path, assembled))
     x, y, z = still.points.T
     assert np.allclose(placed.points, np.stack([x, 5.0 - (z - 1.0), 1.0 + y], axis=1), atol=1e-12)
-
-
-def turned_by(**orientation):
-    return {"orientation": replace(OURS, **orientation)}
 
 
 def reordered(mesh, order):
@@ -405,36 +389,8 @@ def test_all_elements_of_the_other_winding_are_turned(tmp_path, slope):
     assert assemble(again, TITANIUM).total_mass == pytest.approx(4400 * 0.06 * 0.004 * 0.03)
 
 
-@pytest.mark.parametrize(
-    ("changes", "key", "message"),
-    [
-        ({"file": "none.vtu"}, "mesh", r"there is no file .*none\.vtu"),
-        ({"minimum_scaled_jacobian": 1.0}, "mesh", "scaled Jacobian below minimum_scaled_jac"),
-        (turned_by(length_unit="mm"), "length_unit", r"length_unit mm or rotor_axis does not fit .* fitting units: m \(0\.06"),
-        (turned_by(axis_point=(-1e6, 0, 0.0)), "axis_point", r"would reach to 1\.\d+e\+06 m from the .* \(allowed: 10 m"),
-        (turned_by(axis_point=(0.23, 0, 0.0)), "radial", "passes through the blade|from `radial`"),
-        ({"tip": Where(("root",))}, "root", r"a radius of 0\.2 m and a tip at 0\.2 m"),
-        ({"tip": Where(limits=(("r", "at_least", 0.3),))}, "tip", "no outer face .* the rule 'r at least 0.3 m, to 0.0001 m'"),
-        ({"tip": Where(cone_zr=((0.0, 0.27), (0.03, 0.25)))}, "tip", r"the cone through \(z, r\) = \(0, 0.27\) and \(0.03, 0"),
-        ({"tip": Where(limits=(("r", "at_least", 0.2495),)), "end_check": False}, "tip", "no surface of revolution about"),
-    ],
-)
-def test_wrong_orientation_and_rules_are_refused(tmp_path, changes, key, message):
-    """The location of the key to blame goes in front where the configuration gives one."""
-    write_mesh(plate(), tmp_path / "mesh.vtu")
-    place = f"blades.yaml:3: Fan.{key}"
-    with pytest.raises(ImportRefused, match=f"^{place}: .*(?:{message})") as refusal, located({key: place}):
-        import_mesh(replace(source("mesh.vtu"), **changes), tmp_path)
-    assert refusal.value.key == key
-
-
 def test_a_unit_may_be_a_quotient():
-    unit = TypeAdapter(LengthUnit)
-    assert unit.validate_python("1/2540") == pytest.approx(0.0254 / 64.516) == unit.validate_python(1 / 2540)
-    for text in ("1/0", "1/2/3", "mm/2", "1/1e20", "nan/1"):
-        with pytest.raises(ValidationError) as refusal:
-            unit.validate_python(text)
-        assert refusal.value.errors()[0]["ctx"]["found"] == text
+    assert TypeAdapter(LengthUnit).validate_python("1/2540") == pytest.approx(0.0254 / 64.516)
 
 
 def test_a_blade_larger_than_any_is_told():

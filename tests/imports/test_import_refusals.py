@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import gmsh
 import numpy as np
@@ -10,7 +11,7 @@ import yaml
 from box_mesh import TITANIUM, box_mesh, plate, write_deck, write_with_gmsh
 from defaults import Orientation
 from import_defaults import MeshSource, Where
-from pydantic import ValidationError
+from refusal_tables import pattern_of, refusal_rows
 
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.orientation import OURS
@@ -22,7 +23,7 @@ from r37imports.importing.file_material import ignored_material
 from r37imports.importing.import_mesh import import_mesh, size_in_words
 from r37imports.importing.meshio_reader import read_with_meshio
 from r37imports.importing.source import mesh_files
-from r37imports.refusal import ImportRefused, MeshWarning
+from r37imports.refusal import ImportRefused, MeshWarning, located
 
 THEIRS = Orientation("mm", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), "negative")
 """x along the rotor's axis, y through the blade."""
@@ -49,6 +50,8 @@ ENTRY |= {"rotation": "negative", "material": {}, "root": "BOUNDARY", "tip": {"r
 OF_OURS = ENTRY | {"length_unit": "m", "rotor_axis": [0.0, 0.0, 1.0], "radial": [1.0, 0.0, 0.0], "root": "root"}
 """For a mesh in the blade's frame."""
 
+TABLE = Path(__file__).with_name("refusals.txt")
+
 TIP = [[0.001368, 0.25233], [0.0282954, 0.244993]]
 """The tip's meridian, (z, r) in m."""
 
@@ -57,36 +60,14 @@ def attempt(folder, entry):
     return import_mesh(MeshEntry.model_validate(entry).source(folder), folder)[0]
 
 
-@pytest.mark.parametrize(
-    ("changes", "said", "fitting"),
-    [
-        ({}, r"caught (\d+) of the \1 faces that look towards the casing; it also caught \d+ side faces: narrow", {"tip"}),
-        ({"tip": {"r_at_least_m": 0.249}}, r"tip: .* caught \d+ of the \d+ faces that look towards the casing", {"tip"}),
-        ({"tip": {"cone_zr_m": [[0, 0.25], [0.04, 0.24]]}}, "tip: no outer face has all its nodes within the rule", {"tip"}),
-        ({"tip": "shroud"}, r"found no set 'shroud'; (.|\n)*# sets of the file: BOUNDARY \(\d+ nodes\), EALL", {"tip"}),
-        ({"root": "hub"}, "found no set 'hub'; and tip: the rule .* side faces", {"root", "tip"}),
-        ({"root": {"r_at_most_m": 0.188}}, r"root: the rule .* it also caught \d+ side faces", {"root", "tip"}),
-        ({"root": {"r_at_most_m": 0.185}}, "caught 4 of the 6 faces that look towards the axis: widen", {"root", "tip"}),
-        ({"rotation": "positive"}, r"side faces.*; and found the tip's leading edge at .* trailing edge", {"rotation", "tip"}),
-        ({"rotor_axis": [-1.0, 0.0, 0.0]}, "pressure side that looks along the rotation and is convex", {"rotor_axis", "tip"}),
-        ({"rotor_axis": [0.0, 0.0, 1.0]}, "no surface of revolution about the rotor axis", {"rotor_axis", "tip"}),
-        (
-            {"radial": [0.0, 0.0, 1.0]},
-            r"degrees round the axis from `radial`.*; fitting: radial: \[0, 1, -0\.028\]",
-            {"radial", "tip"},
-        ),
-        ({"length_unit": "m"}, r"fitting units: mm \(0\.07\d+ m\), cm", {"length_unit", "tip"}),
-        ({"length_unit": "m", "root": "hub", "rotor_axis": [0.0, 0.0, 1.0]}, "length_unit m or rot", {"length_unit", "root"}),
-    ],
-)
-def test_the_second_attempt_works(theirs, changes, said, fitting):
+@pytest.mark.parametrize(("kind", "changes", "said"), refusal_rows(TABLE, "second attempt"))
+def test_the_second_attempt_works(theirs, kind, changes, said):
     """Lines of the message, taken over as they are, make an entry that is accepted."""
     ours, folder = theirs
-    first = ENTRY | changes
-    with pytest.raises(ImportRefused, match=said) as refusal:
+    first = ENTRY | yaml.safe_load(changes)
+    with pytest.raises(ImportRefused, match=f"(?s){pattern_of(said)}") as refusal:
         attempt(folder, first)
     lines = yaml.safe_load("\n".join(line for line in str(refusal.value).splitlines() if line.startswith("  ")))
-    assert set(lines) >= fitting
     mesh = attempt(folder, first | lines)
     for name in ("root", "tip", "tip_pressure_edge"):
         np.testing.assert_array_equal(mesh.node_set(name), ours.node_set(name))
@@ -142,8 +123,27 @@ def deck(tmp_path):
     return write
 
 
-def read(folder, name="mesh.inp", root="root", tip="tip"):
-    return import_mesh(MeshSource(name, OURS, Where((root,)), Where((tip,)), sense_check=False), folder)[0]
+def read(folder, name="mesh.inp", root="root", tip="tip", **changes):
+    return import_mesh(MeshSource(name, OURS, Where((root,)), Where((tip,)), sense_check=False, **changes), folder)[0]
+
+
+@pytest.mark.parametrize(("kind", "changes", "message"), refusal_rows(TABLE, "plate"))
+def test_orientation_and_rules_that_do_not_fit(tmp_path, kind, changes, message):
+    """The location of the key to blame goes in front where the configuration gives one."""
+    write_mesh(plate(), tmp_path / "mesh.vtu")
+    key, _, said = message.partition(": ... ")
+    place = f"blades.yaml:3: Fan.{key}"
+    entry = OF_OURS | {"mesh": "mesh.vtu", "tip": "tip"} | yaml.safe_load(changes)
+    with pytest.raises(ImportRefused, match=f"(?s)^{place}: .*{pattern_of(said)}") as refusal, located({key: place}):
+        attempt(tmp_path, entry)
+    assert refusal.value.key == key
+
+
+@pytest.mark.parametrize(("kind", "change", "message"), refusal_rows(TABLE, "deck"))
+def test_decks_that_are_refused(deck, kind, change, message):
+    old, new = (part.replace(" / ", "\n") for part in change.split(" -> "))
+    with pytest.raises(ImportRefused, match=rf"(?s)mesh\.inp: .*{pattern_of(message)}"):
+        read(deck(lambda text: text.replace(old, new, 1)))
 
 
 @pytest.mark.parametrize("name", ["mesh.dat", "mesh.msh", "mesh.nas", "mesh.TXT", "mesh"])
@@ -164,53 +164,55 @@ def test_other_texts_are_no_decks(tmp_path, text):
         read(tmp_path, "mesh.dat")
 
 
-def boundary(rows, head="*BOUNDARY"):
-    return lambda text: text.replace("*BOUNDARY\nROOT, 1, 3", "\n".join([head, *rows(plate().node_set("root") + 1)]))
+def boundary(rows):
+    """Change of the deck's *BOUNDARY; a row with N is one for each node of the root."""
+    nodes = plate().node_set("root") + 1
+    lines = [row.replace("N", str(node)) for row in rows.split(" / ") for node in (nodes if "N" in row else [0])]
+    return lambda text: text.replace("*BOUNDARY\nROOT, 1, 3", "\n".join(["*Boundary, op=new", *lines]))
 
 
 @pytest.mark.parametrize(
-    "change",
+    "rows",
     [
-        boundary(lambda root: [f"{node}, 1, 3" for node in root]),
-        boundary(lambda root: [f"{node}, 1, 6, 0." for node in root], "*Boundary, op=NEW"),
-        boundary(lambda root: [f"{node}, {direction}" for direction in (1, 2, 3) for node in root]),
-        boundary(lambda root: ["Root, ENCASTRE"]),
-        boundary(lambda root: ["root, pinned", "1, 2, 2, 0.5"]),
-        boundary(lambda root: [f"Blade-1.{node}, 1, 3, 0.0" for node in root]),
-        boundary(lambda root: ["root, 1, 3", "tip, 3", "tip, 1, 2, 0.1"]),
+        "N, 1, 3",
+        "N, 1, 6, 0.",
+        "N, 1 / N, 2 / N, 3",
+        "Root, encastre",
+        "root, pinned / 1, 2, 2, 0.5",
+        "Blade-1.N, 1, 3, 0.0",
+        "root, 1, 3 / tip, 3 / tip, 1, 2, 0.1",
     ],
 )
-def test_nodes_that_the_deck_clamps_are_a_set(deck, change):
-    mesh = read(deck(change), root="boundary")
+def test_nodes_that_the_deck_clamps_are_a_set(deck, rows):
+    mesh = read(deck(boundary(rows)), root="boundary")
     np.testing.assert_array_equal(mesh.node_set("root"), plate().node_set("root"))
 
 
-@pytest.mark.parametrize("row", ["root, 1, 2", "root, 1, 3, 0.1", "nowhere, 1, 3", "*BOUNDARY, TYPE=VELOCITY\nroot, 1, 3"])
+@pytest.mark.parametrize("row", ["root, 1, 2", "root, 1, 3, 0.1", "nowhere, 1, 3", "*BOUNDARY, type=velocity / root, 1, 3"])
 def test_nodes_that_move_are_not_clamped(deck, row):
-    change = boundary(lambda root: [row])
     with pytest.raises(ImportRefused, match=r"found no set 'boundary'; (.|\n)*file: ALL_NODES \(174 nodes\), BLADE"):
-        read(deck(change), root="boundary")
+        read(deck(boundary(row)), root="boundary")
+
+
+def with_sets(**sets):
+    """Change of a deck that has these sets of nodes too."""
+    rows = [f"*NSET, NSET={name}\n" + ",\n".join(map(str, nodes + 1)) for name, nodes in sets.items()]
+    return lambda text: text.replace("*MATERIAL", "\n".join([*rows, "*MATERIAL"]), 1)
 
 
 def test_any_nodes_may_be_the_root(deck):
     """Of a set BOUNDARY of the file; without a whole face, and inside, as of a dovetail's flanks."""
-    members = ", ".join(map(str, plate().node_set("root")[:10] + 1))
-    folder = deck(lambda text: text.replace("*MATERIAL", f"*NSET, NSET=Boundary\n{members}\n*MATERIAL"))
+    members = np.flatnonzero(plate().points[:, 0] < 0.212)[::2]
+    folder = deck(with_sets(Boundary=plate().node_set("root")[:10], SOME=members))
     assert len(read(folder, root="BOUNDARY").node_set("root")) == 10
-    members = ", ".join(map(str, np.flatnonzero(plate().points[:, 0] < 0.212)[::2] + 1))
-    folder = deck(lambda text: text.replace("*MATERIAL", f"*NSET, NSET=SOME\n{members}\n*MATERIAL"))
-    assert len(read(folder, root="some").node_set("root")) == len(members.split(","))
+    assert len(read(folder, root="some").node_set("root")) == len(members)
 
 
 def test_sets_of_corners_get_their_mid_nodes(deck):
     """Some preprocessors pick corners alone: a face of them is meant with its mid-nodes."""
     mesh = plate()
     corners = np.unique(mesh.blocks["hexahedron20"][:, :8])
-    lines = [
-        f"*NSET, NSET={name}_CORNERS\n" + ",\n".join(map(str, np.intersect1d(mesh.node_set(name), corners) + 1))
-        for name in ("root", "tip")
-    ]
-    folder = deck(lambda text: text.replace("*MATERIAL", "\n".join(lines) + "\n*MATERIAL"))
+    folder = deck(with_sets(**{f"{name}_CORNERS": np.intersect1d(mesh.node_set(name), corners) for name in ("root", "tip")}))
     with pytest.warns(MeshWarning, match=r"tip: the set 'tip_corners' has corners of elements alone \(8 nodes\); the 10 mid"):
         again = read(folder, root="root_corners", tip="tip_corners")
     for name in ("root", "tip"):
@@ -220,16 +222,13 @@ def test_sets_of_corners_get_their_mid_nodes(deck):
 @pytest.mark.parametrize(
     ("names", "message"),
     [
-        (("tip", "root"), r"clamped nodes at a radius of 0\.26 m and a tip at 0\.2 m; allowed: a root nearer"),
         (("line", "tip"), "root: found 3 nodes on one line, which do not hold the blade"),
         (("blade", "tip"), r"root: (\d+) of its \d+ nodes are the tip's too"),
         (("none", "tip"), "the set 'none', which has 0 nodes"),
     ],
 )
 def test_roots_that_cannot_be_meant(deck, names, message):
-    line = ", ".join(map(str, np.lexsort(plate().points.T[::-1])[:3] + 1))
-    sets = f"*NSET, NSET=LINE\n{line}\n*NSET, NSET=NONE\n99999\n*MATERIAL"
-    folder = deck(lambda text: text.replace("*MATERIAL", sets))
+    folder = deck(with_sets(LINE=np.lexsort(plate().points.T[::-1])[:3], NONE=np.array([99998])))
     with pytest.raises(ImportRefused, match=message):
         read(folder, root=names[0], tip=names[1])
 
@@ -259,7 +258,7 @@ def test_an_element_that_is_missing_inside_is_told(tmp_path, element, cell, mess
     here = np.all(np.abs(mesh.points[nodes].mean(axis=1) - place) < np.array((0.005, 0.002 / layers, 0.005)), axis=1)
     write_mesh(replace(mesh, blocks={element: nodes[~here]}), tmp_path / "mesh.vtu")
     with pytest.warns(MeshWarning, match=message):
-        import_mesh(MeshSource("mesh.vtu", OURS, Where(("root",)), Where(("tip",)), drop_free_nodes=True), tmp_path)
+        read(tmp_path, "mesh.vtu", drop_free_nodes=True)
 
 
 def test_elements_of_two_orders_must_not_touch(tmp_path):
@@ -268,7 +267,7 @@ def test_elements_of_two_orders_must_not_touch(tmp_path):
     mixed = replace(mesh, blocks={"hexahedron": nodes[:9, :8], "hexahedron20": nodes[9:]})
     write_mesh(mixed, tmp_path / "mesh.vtu")
     with pytest.raises(ImportRefused, match=r"the mid-nodes of 10 edges, for example between the nodes \d+, \d+, belong"):
-        import_mesh(MeshSource("mesh.vtu", OURS, Where(("root",)), Where(("tip",)), drop_free_nodes=True), tmp_path)
+        read(tmp_path, "mesh.vtu", drop_free_nodes=True)
 
 
 @pytest.mark.parametrize("face", ["S0", "S7", "S", "P1", "SPOS", "S1.5"])
@@ -358,62 +357,63 @@ def test_a_material_of_the_file_that_is_not_used(tmp_path, file, text, found):
     assert other is None if found is None else other.youngs_modulus == found
 
 
+def write_boxes(file, boxes, options=(), grouped=(), partitions=0, size=1e22):
+    """Boxes joined by their faces, in tetrahedra of second order or with other options of gmsh, some in a group."""
+    with quiet_gmsh():
+        for name, value in (
+            {"Mesh.ElementOrder": 2, "Mesh.SecondOrderIncomplete": 0, "Mesh.MeshSizeMax": size} | dict(options)
+        ).items():
+            gmsh.option.setNumber(name, value)
+        first, *others = [(3, gmsh.model.occ.addBox(*box)) for box in boxes]
+        if others:
+            gmsh.model.occ.fragment([first], others)
+        gmsh.model.occ.synchronize()
+        if "Mesh.Recombine3DAll" in dict(options):
+            gmsh.model.mesh.setTransfiniteAutomatic(recombine=True)
+        if grouped:
+            gmsh.model.addPhysicalGroup(3, grouped, name="blade")
+        gmsh.model.mesh.generate(3)
+        if partitions:
+            gmsh.model.mesh.partition(partitions)
+        gmsh.write(str(file))
+
+
+BOX, NEXT = (0.0, 0.2, 0.0, 0.004, 0.05, 0.03), (0.0, 0.25, 0.0, 0.004, 0.05, 0.03)
+VERSIONS = "the reader gave up: it is damaged, ... : let gmsh write it with Mesh.MshFile"
+
+
 @pytest.mark.parametrize(
-    ("options", "grouped", "said"),
+    ("changes", "said"),
     [
-        ({"Mesh.SaveAll": 1}, 1, r"some elements are in no physical group: .*, or write with Mesh\.SaveAll = 0"),
-        ({"Mesh.Recombine3DAll": 1}, 2, r"hexahedron27; .*; leave nodes on faces out \(Mesh\.SecondOrderIncomplete = 1"),
+        (
+            {"options": {"Mesh.SaveAll": 1}, "grouped": [1]},
+            "some elements are in no physical group: ... , or write with Mesh.SaveAll = 0",
+        ),
+        (
+            {"options": {"Mesh.Recombine3DAll": 1}, "grouped": [1, 2]},
+            "hexahedron27; ... ; leave nodes on faces out (Mesh.SecondOrderIncomplete = 1",
+        ),
+        ({"options": {"Mesh.MshFileVersion": 4.0}}, VERSIONS),
+        ({"partitions": 2}, VERSIONS),
     ],
 )
-def test_what_gmsh_has_written_otherwise(tmp_path, options, grouped, said):
-    """Two boxes, so many of them in a group, in the structured mesh that recombines to elements with nodes on their faces."""
-    with quiet_gmsh():
-        for name, value in ({"Mesh.SecondOrderIncomplete": 0} | options).items():
-            gmsh.option.setNumber(name, value)
-        for number in range(2):
-            gmsh.model.occ.addBox(0.0, 0.2 + 0.05 * number, 0.0, 0.004, 0.05, 0.03)
-        gmsh.model.occ.fragment([(3, 1)], [(3, 2)])
-        gmsh.model.occ.synchronize()
-        gmsh.model.mesh.setTransfiniteAutomatic(recombine="Mesh.Recombine3DAll" in options)
-        gmsh.model.addPhysicalGroup(3, [1, 2][:grouped], name="blade")
-        gmsh.model.mesh.generate(3)
-        gmsh.write(str(tmp_path / "boxes.msh"))
-    with pytest.raises(ImportRefused, match=said):
+def test_what_gmsh_has_written_otherwise(tmp_path, changes, said):
+    """Groups, elements with nodes on their faces, versions and partitions: what cannot be read has a remedy."""
+    write_boxes(tmp_path / "boxes.msh", (BOX, NEXT), **changes)
+    with pytest.raises(ImportRefused, match=pattern_of(said)):
         attempt(tmp_path, OF_OURS | {"mesh": "boxes.msh"})
 
 
-@pytest.mark.parametrize(
-    ("options", "partitions", "said"),
-    [({"Mesh.MshFileVersion": 4.0}, 0, None), ({}, 2, None), ({"Mesh.MshFileVersion": 2.2}, 2, "tetra10")],
-)
-def test_versions_and_partitions_of_gmsh(tmp_path, options, partitions, said):
-    """What meshio cannot read has a remedy, and the remedy works."""
-    with quiet_gmsh():
-        for name, value in options.items():
-            gmsh.option.setNumber(name, value)
-        gmsh.model.occ.addBox(0.0, 0.2, 0.0, 0.004, 0.05, 0.03)
-        gmsh.model.occ.synchronize()
-        gmsh.model.mesh.generate(3)
-        gmsh.model.mesh.setOrder(2)
-        if partitions:
-            gmsh.model.mesh.partition(partitions)
-        gmsh.write(str(tmp_path / "box.msh"))
-    if said:
-        assert list(read_with_meshio(tmp_path / "box.msh").blocks) == [said]
-    else:
-        with pytest.raises(
-            ImportRefused, match=r"^the reader gave up: it is damaged, .*: let gmsh write it with Mesh\.MshFile"
-        ):
-            read_with_meshio(tmp_path / "box.msh")
+def test_the_remedy_for_partitions_works(tmp_path):
+    write_boxes(tmp_path / "box.msh", [BOX], {"Mesh.MshFileVersion": 2.2}, partitions=2)
+    assert list(read_with_meshio(tmp_path / "box.msh").blocks) == ["tetra10"]
 
 
 def test_a_root_of_several_sets(deck):
     """As the flanks of a fir tree: their nodes together, the mid-nodes of each; a set that is not there is named."""
     mesh = plate()
     root, y = mesh.node_set("root"), mesh.points[mesh.node_set("root"), 1]
-    sets = {"LEFT": root[y < -0.001], "RIGHT": root[y > 0.001]}
-    rows = "".join(f"*NSET, NSET={name}\n{', '.join(map(str, nodes + 1))}\n" for name, nodes in sets.items())
-    folder = deck(lambda text: text.replace("*MATERIAL", f"{rows}*MATERIAL", 1))
+    folder = deck(with_sets(LEFT=root[y < -0.001], RIGHT=root[y > 0.001]))
     entry = OF_OURS | {"mesh": "mesh.inp", "tip": "tip", "sense_check": False}
     held = attempt(folder, entry | {"root": ["left", "RIGHT"]}).node_set("root")
     np.testing.assert_array_equal(held, root[np.abs(y) > 0.001])
@@ -426,8 +426,7 @@ def test_sets_that_a_root_is_without(deck):
     """Of a set, of sets and of a rule, whose faces at the nodes that are left out go with them."""
     mesh = plate()
     root, y = mesh.node_set("root"), mesh.points[mesh.node_set("root"), 1]
-    rows = f"*NSET, NSET=RIGHT\n{', '.join(map(str, root[y > 0.001] + 1))}\n"
-    folder = deck(lambda text: text.replace("*MATERIAL", f"{rows}*MATERIAL", 1))
+    folder = deck(with_sets(RIGHT=root[y > 0.001]))
     entry = OF_OURS | {"mesh": "mesh.inp", "tip": "tip", "sense_check": False, "end_check": False}
     held = attempt(folder, entry | {"root": {"sets": ["root"], "without": ["right"]}}).node_set("root")
     np.testing.assert_array_equal(held, root[y <= 0.001])
@@ -438,9 +437,6 @@ def test_sets_that_a_root_is_without(deck):
         ImportRefused, match=r"no outer face .* the rule 'x at most 0\.2 m, to 0\.0001 m' without 'right'; give"
     ):
         attempt(folder, entry | {"root": {"x_at_most_m": 0.2, "without": ["right"]}})
-    for rule in ({"without": ["RIGHT"]}, {"sets": [], "without": ["RIGHT"]}):
-        with pytest.raises(ValidationError, match=r"a rule without limits; allowed: .*, planes_m or sets"):
-            MeshEntry.model_validate(entry | {"root": rule})
 
 
 DOVETAIL = ((180, 9), (188, 9), (194, 5), (197, 5), (197, 14), (200, 14))
@@ -488,11 +484,6 @@ def test_the_flanks_of_a_root_are_proposed_before_its_bottom(tmp_path, outline, 
         attempt(tmp_path, entry | fitting | {"root": fewer})
 
 
-def test_a_plane_through_the_origin():
-    with pytest.raises(ValidationError, match="a plane through the origin; allowed: planes that do not contain it"):
-        SurfaceRule.model_validate({"planes_m": [[0.1, 0.0, 0.0], [0.0, 0.0, 0.0]]})
-
-
 def test_a_tip_without_a_proposal_says_why(tmp_path):
     """Of a plate with a notch in its tip: one cone catches two faces."""
     mesh = plate()
@@ -509,15 +500,9 @@ def test_a_tip_without_a_proposal_says_why(tmp_path):
 def footed(tmp_path_factory):
     """A folder with a plate of 50 mm on a foot of 20 mm, `foot.msh`: x radial, z along the axis, metres."""
     folder = tmp_path_factory.mktemp("footed")
-    with quiet_gmsh():
-        occ = gmsh.model.occ
-        foot = occ.addBox(0.18, -0.015, -0.02, 0.02, 0.03, 0.04)
-        occ.fuse([(3, foot)], [(3, occ.addBox(0.2, -0.002, -0.015, 0.05, 0.004, 0.03))])
-        occ.synchronize()
-        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.005)
-        gmsh.model.mesh.generate(3)
-        gmsh.model.mesh.setOrder(2)
-        gmsh.write(str(folder / "foot.msh"))
+    write_boxes(
+        folder / "foot.msh", [(0.18, -0.015, -0.02, 0.02, 0.03, 0.04), (0.2, -0.002, -0.015, 0.05, 0.004, 0.03)], size=0.005
+    )
     return folder
 
 
@@ -546,5 +531,3 @@ def test_the_span_of_a_modelled_root_begins_at_its_platform(footed):
     assert lowest["clamped"] < 0.19 and 0.2 < lowest["platform"] < 0.21
     with pytest.raises(ImportRefused, match="found a tip that is not above hub_zr_m"):
         attempt(footed, FOOTED | {"hub_zr_m": [[0.0, 0.26], [0.1, 0.26]]})
-    with pytest.raises(ValidationError, match="the same z twice"):
-        MeshEntry.model_validate(FOOTED | {"hub_zr_m": [[0.0, 0.2], [0.0, 0.2]]})

@@ -1,6 +1,7 @@
 """Blades of other programs in the configuration, and the plans of their rules."""
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 import yaml
 from box_mesh import write_deck
 from import_defaults import Where
+from refusal_tables import pattern_of, refusal_rows
 from workflow_runs import overlay
 
 from r37core.config import ConfigError
@@ -78,20 +80,18 @@ def test_runs_that_end_as_they_have_settled_have_no_signals_by_default(settings_
     assert wanted["<results>/{blade}/{scene}/signals.nc"] == [{"blade": "Fan", "scene": "abradable"}]
 
 
-@pytest.mark.parametrize(
-    ("entry", "changes", "message"),
-    [
-        (MESH, {"vary": {"material.density_kg_m3": [4430, 4500]}}, "Other: found a family of an imported blade"),
-        (MESH, {"sweep_percent": 50}, r"Other\.sweep_percent: found sweep_percent with the mesh of Fan"),
-        (MESH, {"chordwise_sweep_deg": 3}, r"Other\.chordwise_sweep_deg: found chordwise_sweep_deg with the mesh of Fan"),
-        (MESH, {"stagger_deg": {"tip": 2}}, r"Other\.stagger_deg: found stagger_deg with the mesh of Fan"),
-        (MESH, {"thickness_percent": 100}, r"Other\.thickness_percent: found thickness_percent with the mesh of Fan"),
-        (MATRICES, {}, r"Other\.base: found 'Fan', a blade of matrices; allowed: a blade with profiles or a mesh"),
-    ],
-)
-def test_an_imported_blade_has_no_table_to_vary(settings_with, entry, changes, message):
-    with pytest.raises(ConfigError, match=message):
-        settings_with(entry, {"Other": {"base": "Fan"} | changes}, blades=("Other",))
+TABLE = Path(__file__).with_name("refusals.txt")
+ENTRIES = {"mesh": MESH, "matrices": MATRICES, "base: a mesh": MESH, "base: matrices": MATRICES}
+
+
+@pytest.mark.parametrize(("kind", "changes", "message"), refusal_rows(TABLE, *ENTRIES))
+def test_what_is_refused_of_an_imported_blade(settings_with, kind, changes, message):
+    """Of its entry, and of one that has it as the base: an imported blade has no table to vary."""
+    entry, changed = ENTRIES[kind], yaml.safe_load(changes)
+    with pytest.raises(ConfigError, match=rf"^config/blades\.yaml:\d+: {pattern_of(message)}"):
+        if kind.startswith("base"):
+            settings_with(entry, {"Other": {"base": "Fan"} | changed}, blades=("Other",))
+        settings_with(entry | changed)
 
 
 def test_a_mesh(settings_with, config_copy):
@@ -125,52 +125,6 @@ def test_a_mesh_with_another_material(settings_with):
     assert settings.blades["Heavy"].material.density == 4500.0
     assert settings.blades["Heavy"].definition == settings.blades["Fan"].definition
     assert settings.designs.locations_of_keys("Heavy")["root"].endswith(": Fan.root")
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"mesh": "meshes/none.inp"}, r"Fan\.mesh: there is no file meshes/none\.inp$"),
-        ({"mesh": "meshes/fan/boundary.csv"}, r"Fan\.mesh: found a file of kind '\.csv' .*; allowed: \.inp, \.msh"),
-        ({"mesh": "meshes/fan.inp\n"}, r"Fan\.mesh: found 'meshes/fan\.inp\\n'; allowed: a name without line breaks"),
-        ({"root": 3}, r"Fan\.root: found 3; allowed: string, .* or mapping with the keys r_at_least_m, "),
-        ({"root": None}, r"Fan: missing key root; allowed keys: .*mesh, material, root, tip"),
-        ({"tip": {}}, r"Fan\.tip: found a rule without limits; allowed: a limit such as r_at_least_m, or cone_zr_m"),
-        ({"tip": {"r_at_leest_m": 1}}, r"Fan\.tip: found unknown key r_at_leest_m; .*did you mean r_at_least_m"),
-        ({"tip": {"r_at_least_m": -1}}, r"Fan\.tip\.r_at_least_m: found -1; allowed: number, at least 0"),
-        ({"tip": {"cone_zr_m": [[0, 1], [1, -1]]}}, r"Fan\.tip\.cone_zr_m: found .*; allowed: two points .*radii of 0 or more"),
-        ({"tip": {"cone_zr_m": [[0, 1], [0, 1]]}}, r"Fan\.tip\.cone_zr_m: found one point twice"),
-        ({"rotor_axis": [0, 0, 0]}, r"Fan\.radial: rotor_axis \(0.0, 0.0, 0.0\) and radial .* two directions, not parallel"),
-        ({"rotor_axis": [1, 0]}, r"Fan\.rotor_axis: found \[1, 0\]; allowed: list of number, entries: at least 3, at most 3"),
-        ({"length_unit": "inch"}, r"Fan\.length_unit: found 'inch'; allowed: one of m, cm, mm, um, in, ft"),
-        ({"length_unit": 0}, r"Fan\.length_unit: found 0; allowed: one of .* or number, at least 1e-09, at most 1000"),
-        ({"rotation": "clockwise"}, r"Fan\.rotation: found 'clockwise'; allowed: one of positive, negative"),
-        ({"rotoraxis": [1, 0, 0]}, r"Fan: found unknown key rotoraxis; .*did you mean rotor_axis"),
-        ({"profiles": "a.csv"}, r"Fan: found unknown key profiles; allowed keys: base, length_unit, "),
-        ({"material": {"density_kg_m3": 4430.0}}, r"Fan\.material: missing key youngs_modulus_pa, poissons_ratio, yield_"),
-        ({"material": MATERIAL | {"youngs_modulus_pa": 1.15e6}}, r"Fan\.material: .* Units seem to be mixed: give Pa and"),
-        ({"stress_regions": {"tip": {"minimum_z_m": 1, "maximum_z_m": 0}}}, r"Fan\..*\.minimum_z_m: found 1; allowed: less"),
-        ({"stress_regions": {"operating": {}}}, r"Fan\.stress_regions\.operating: found 'operating'; allowed: another name"),
-    ],
-)
-def test_meshes_that_cannot_be_meant(settings_with, changes, message):
-    with pytest.raises(ConfigError, match=rf"^config/blades\.yaml:\d+: {message}"):
-        settings_with(MESH | changes)
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"matrices": "meshes"}, r"Fan\.matrices: meshes: found no files; needed: M and K_<speed> at three speeds"),
-        ({"matrices": "meshes/none"}, r"Fan\.matrices: there is no folder meshes/none$"),
-        ({"mass_unit": None}, r"Fan: missing key mass_unit"),
-        ({"stiffness_unit": "N/cm"}, r"Fan\.stiffness_unit: found 'N/cm'; allowed: one of N/m, N/mm"),
-        ({"material": MATERIAL}, r"Fan: found unknown key material"),
-    ],
-)
-def test_matrices_that_cannot_be_meant(settings_with, changes, message):
-    with pytest.raises(ConfigError, match=rf"^config/blades\.yaml:\d+: {message}"):
-        settings_with(MATRICES | changes)
 
 
 @pytest.mark.parametrize(

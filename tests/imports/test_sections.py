@@ -3,10 +3,12 @@
 import re
 import tracemalloc
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
+from refusal_tables import pattern_of, refusal_rows
 from section_files import CHANNEL, airfoil, csv_text, curve_text, fan, geomturbo_text, sections_of, stacked, turbine
 
 from r37core.blade.profile import BladeShapeError, area_and_centroid
@@ -24,6 +26,7 @@ from r37imports.sections.section_blade import Meridian
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 ENTRY = {"length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0], "rotation": "negative", "material": MATERIAL}
 SHARES = np.linspace(0.0, 1.0, 9)
+TABLE = Path(__file__).with_name("refusals.txt")
 
 
 def definition_of(curves, **changes):
@@ -218,22 +221,11 @@ def test_meridians_of_turbogrid_cut_the_blade(settings_with, config_copy, inf, m
         settings_with(text, "R1_Blade.crv", length_unit="mm", hub="?", tip="?")
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"length_unit": "in"}, r"Fan\.length_unit: found in, and mm in the \.inf next to the sections; correct one"),
-        (
-            {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1]},
-            r"Fan\.rotor_axis: .* and the axis z in the \.inf",
-        ),
-        ({"length_unit": "?"}, r"found '\?'; what fits: length_unit: mm; "),
-        ({"length_unit": "mm"}, r"Fan\.hub: sections/inner\.curve cannot be read: No such file"),
-    ],
-)
-def test_the_inf_of_turbogrid_is_not_contradicted(settings_with, config_copy, changes, message):
+@pytest.mark.parametrize(("kind", "changes", "message"), refusal_rows(TABLE, "next to an .inf in millimetres"))
+def test_the_inf_of_turbogrid_is_not_contradicted(settings_with, config_copy, kind, changes, message):
     (config_copy / "sections/BladeGen.inf").write_text(INF)
-    with pytest.raises(ConfigError, match=message):
-        settings_with(curve_text(fan(), 1e3), "R1_Blade.crv", **changes)
+    with pytest.raises(ConfigError, match=pattern_of(message)):
+        settings_with(curve_text(fan(), 1e3), "R1_Blade.crv", **yaml.safe_load(changes))
 
 
 def test_several_meridians_next_to_a_profile_are_a_question(settings_with, config_copy):
@@ -338,27 +330,29 @@ def with_outlier(curve, axis):
     return np.where((np.arange(len(curve)) == 30)[:, None] & (np.arange(3) == axis), curve + 0.005, curve)
 
 
-def without(text, number, change):
-    lines = text.splitlines()
-    lines[number] = change(lines[number])
-    return "\n".join(lines) + "\n"
-
-
 FAN = csv_text(fan())
 CURVE = curve_text(fan())
 TURBO = geomturbo_text(fan())
+TEXTS = {"fan.csv": FAN, "fan.curve": CURVE, "fan.geomTurbo": TURBO}
 CHANNELS = geomturbo_text(fan(), channel=CHANNEL)
 
 
-def row_of(text):
-    """Number of the line in the middle of a section."""
+def with_line(text, number, line):
+    """The text with another line of this number, from 1."""
     lines = text.splitlines()
-    return next(number for number in range(len(lines) // 2, len(lines)) if lines[number - 1].count("0.") == 3)
+    lines[number - 1] = line
+    return "\n".join(lines) + "\n"
 
 
 def broken_row(change):
-    """Mutation of a file in a line of coordinates."""
-    return lambda text: without(text, row_of(text), change)
+    """Mutation of a file in a line of coordinates, in the middle of a section."""
+
+    def changed(text):
+        lines = text.splitlines()
+        number = next(number for number in range(len(lines) // 2, len(lines)) if lines[number - 1].count("0.") == 3)
+        return with_line(text, number + 1, change(lines[number]))
+
+    return changed
 
 
 def first_number(value):
@@ -392,143 +386,93 @@ ALIKE = {
 }
 
 
-@pytest.mark.parametrize(("text", "name"), [(FAN, "fan.csv"), (CURVE, "fan.curve"), (TURBO, "fan.geomTurbo")])
+@pytest.mark.parametrize("name", TEXTS)
 @pytest.mark.parametrize("mutation", MUTATIONS)
-def test_no_broken_file_ends_in_an_inner_error(settings_with, text, name, mutation):
+def test_no_broken_file_ends_in_an_inner_error(settings_with, name, mutation):
     with pytest.raises(ConfigError, match=rf"{re.escape(name)}|Fan\.\w+: ") as refusal:
-        settings_with(MUTATIONS[mutation](text), name)
+        settings_with(MUTATIONS[mutation](TEXTS[name]), name)
     assert len(str(refusal.value).splitlines()) == 1 and len(str(refusal.value)) < 600
 
 
-@pytest.mark.parametrize(("text", "name"), [(FAN, "fan.csv"), (CURVE, "fan.curve"), (TURBO, "fan.geomTurbo")])
+@pytest.mark.parametrize("name", TEXTS)
 @pytest.mark.parametrize("mutation", ALIKE)
-def test_another_form_of_a_file_is_the_same_blade(settings_with, text, name, mutation):
+def test_another_form_of_a_file_is_the_same_blade(settings_with, name, mutation):
+    text = TEXTS[name]
     expected, found = (settings_with(form, name).blades["Fan"].definition for form in (text, ALIKE[mutation](text)))
     assert found == expected
 
 
-@pytest.mark.parametrize(
-    ("text", "name", "message"),
-    [
-        ("", "fan.csv", r"sections/fan\.csv:1: blade Fan: the table lacks the columns section, x, y, z"),
-        ("section,x,y,z\n", "fan.csv", r"fan\.csv:1: blade Fan: found no rows"),
-        ("# nothing\n", "fan.curve", r"fan\.curve:1: blade Fan: found no points"),
-        (FAN.replace("section,x", "part,x"), "fan.csv", r"fan\.csv:1: .*lacks the columns section"),
-        (without(FAN, 11, lambda line: line.replace("0.", "o.")), "fan.csv", r"fan\.csv:12: .*column x: 'o\.\d+' is not a num"),
-        (
-            without(FAN, 11, lambda line: "0,nan,0,0"),
-            "fan.csv",
-            r"fan\.csv:12: .*column x: 'nan' is not a num.*or leave the poi",
-        ),
-        (without(FAN, 11, lambda line: "0,1e308,0,0"), "fan.csv", r"fan\.csv:12: .*'1e308' is not a num.* of at most 1e\+09"),
-        (without(CURVE, 11, lambda line: line[:15]), "fan.curve", r"fan\.curve:12: .*found 2 values; needed: 3"),
-        (without(CURVE, 11, lambda line: line + " 1"), "fan.curve", r"fan\.curve:12: .*found 4 numbers; needed: 3"),
-        (csv_text(fan()[:1]), "fan.csv", r"fan\.csv:2: .*found 1 section; allowed: at least 2, from hub to tip"),
-        (csv_text([curve[::20] for curve in fan()]), "fan.csv", r"fan\.csv:2: .*found a section of 6 points; allowed: at lea"),
-        (with_points([20, 40], [40, 20]), "fan.csv", r"\.csv:\d+: .*: section 4 of 9 from the hub: the curve crosses itself"),
-        (with_points([30, 31], [31, 30]), "fan.csv", r"crosses itself, between points 30 and 31 and points 32 and 33"),
-        (three_sides(), "fan.csv", r"\.csv:2: .*found 3 values in the column side of one section; allowed: one or two"),
-        (csv_text(section_without_trailing_edge()), "fan.csv", r"fan\.csv:2: .*found no \w+ edge: the curve is as thick"),
-        (csv_text([*fan()[:3], *fan()[2:5]]), "fan.csv", r"fan\.csv: blade Fan: section 4 of 6 .*does not lie wholly above"),
-        (FAN + "0.1\n" * 10**6, "fan.csv", r"fan\.csv:1: .*found 1\d{6} lines; allowed: at most 200000 points"),
-        (csv_text(fan(), 1e3), "fan.csv", r"Fan\.length_unit: the blade would be .*fitting units: mm"),
-        (FAN, "fan.dat", r"fan\.dat: blade Fan: found a file of kind '\.dat'; allowed: \.curve, \.crv, \.geomTurbo, \.csv"),
-        (TURBO.replace("pressure", "none"), "fan.geomTurbo", r"fan\.geomTurbo:1: .*found no line 'pressure'"),
-        (TURBO.replace("SECTIONAL", "SURFACE"), "fan.geomTurbo", r"fan\.geomTurbo:7: .*found 'SURFACE' under suction"),
-        (TURBO.replace("XYZ", "UVW", 1), "fan.geomTurbo", r"fan\.geomTurbo:10: .*coordinates 'UVW'; allowed: XYZ, ZRTH"),
-        (TURBO.replace("\n9\n", "\n0\n"), "fan.geomTurbo", r"fan\.geomTurbo:8: .*found '0'; needed: how many sections"),
-        (
-            TURBO.replace("\n9\n", "\n\u00b2\n"),
-            "fan.geomTurbo",
-            r"fan\.geomTurbo:8: .*found '\u00b2'; needed: how many sections",
-        ),
-        (TURBO.replace("units 1", "units 0.001"), "fan.geomTurbo", r"\.geomTurbo:5: .*units 0\.001; allowed: 1, with coo"),
-        (
-            TURBO + TURBO,
-            "fan.geomTurbo",
-            r"fan\.geomTurbo:\d+: .*found 2 blades, with suction sides in lines 6, \d+; allowed: one",
-        ),
-        (
-            CHANNELS.replace("NAME thehub", "NAME a"),
-            "fan.geomTurbo",
-            r"\.geomTurbo:2\d: .*no basic curve named thehub.*found: a, ",
-        ),
-        (CHANNELS.replace("ZR\n2\n", "ZR\n0\n"), "fan.geomTurbo", r"fan\.geomTurbo:9: .*found '0'; needed: how many"),
-        (
-            changed_section(lambda curve: np.add(curve, [0.0, 0.0, 0.05])),
-            "fan.csv",
-            r"\.csv:356: .*section 4 of 9 .*axial place \+50 mm",
-        ),
-        (
-            changed_section(lambda curve: np.add(curve, [0.0, 0.0, 0.05]), 2, 5),
-            "fan.csv",
-            r"\.csv:238: .*section 3 of 5 .*axial place \+50 mm",
-        ),
-        (changed_section(lambda curve: curve * [-1.0, -1.0, 1.0]), "fan.csv", r"\.csv:356: .*4 of 9 .*place round the axis -8"),
-        (changed_section(lambda curve: twisted(curve, 10.0)), "fan.csv", r"\.csv:356: .*4 of 9 .*stagger -9\.\d+ degrees off"),
-        (
-            changed_section(lambda curve: curve * [1.0, 1.3, 1.3]),
-            "fan.csv",
-            r"\.csv:356: .*section 4 of 9 .*length \+3\d\.\d mm off",
-        ),
-        (
-            changed_section(lambda curve: np.delete(curve, slice(15, 30), axis=0)),
-            "fan.csv",
-            r"\.csv:356: .*gap of \d+\.?\d* mm after po",
-        ),
-        (
-            changed_section(lambda curve: with_outlier(curve, 2)),
-            "fan.csv",
-            r"\.csv:356: .*4 of 9 .*inward corner of .* at point",
-        ),
-        (
-            changed_section(lambda curve: with_outlier(curve, 0)),
-            "fan.csv",
-            r"\.csv:356: .*4 of 9 .*radius 5 mm off .* at point 31 of",
-        ),
-    ],
-)
-def test_a_broken_file_is_one_line(settings_with, text, name, message):
-    with pytest.raises(ConfigError, match=message) as refusal:
-        settings_with(text, name)
+@pytest.mark.parametrize(("name", "change", "message"), refusal_rows(TABLE, *TEXTS, "channel.geomTurbo"))
+def test_a_line_that_is_wrong_is_named(settings_with, name, change, message):
+    text, (old, _, new) = {**TEXTS, "channel.geomTurbo": CHANNELS}[name], change.partition(" -> ")
+    number, _, line = change.partition(": ")
+    with pytest.raises(ConfigError, match=pattern_of(message)) as refusal:
+        settings_with(text.replace(old, new, 1) if new else with_line(text, int(number), line), name)
     assert len(str(refusal.value).splitlines()) == 1
 
 
 @pytest.mark.parametrize(
-    ("changes", "message"),
+    ("text", "message"),
     [
-        ({"length_unit": "?"}, r"Fan\.length_unit: found '\?'; what fits: length_unit: m; .*: m \(0\.15 to 0\.45 m"),
-        ({"rotation": "?"}, r"Fan\.rotation: found '\?'; what fits: rotation: negative"),
-        ({"hub": "?", "tip": "?"}, r"Fan\.hub: .*hub: \{ cone.* at r 0\.15 m; sections that reach beyond.*; tip: \{ cone_zr_m"),
-        (dict.fromkeys(("length_unit", "rotation", "hub", "tip"), "?"), r"length_unit: m; .*rotation: neg.*hub: \{.*tip: \{"),
-        ({"hub": "/dev/zero"}, r"Fan\.hub: /dev/zero:1: found more than 64 MB; allowed: a text file"),
-        ({"rotation": "positive"}, r"Fan\.rotation: found the tip's trailing edge ahead .*stagger -6\d\.\d.*change rotation"),
-        ({"pressure_side": "backward"}, r"Fan\.pressure_side: found a convex pressure side .*give pressure_side: forward"),
-        ({"rotor_axis": [0, 0, -1]}, r"Fan\.pressure_side: found a convex .* change both rotor_axis and rotation if rot"),
-        (
-            {"rotor_axis": [0, 1, 0]},
-            r"Fan\.rotor_axis: found \[0\.0, 1\.0, 0\.0\]; .* about \[0.0, 0.0, 1.0\] or \[0.0, 0.0, -1.0\].*sense_check",
-        ),
-        ({"vary": {"camber_deg": [1.0]}}, r"Fan: design Fan_1: found camber_deg; allowed keys: .*stagger_deg.*hub\.radius_m"),
-        ({"vary": {"rotor_axis.0": [1.0]}}, r"Fan: design Fan_1: found rotor_axis\.0; allowed keys: "),
-        ({"vary": {"chord": [1.0]}}, r"Fan: design Fan_1: found unknown key chord; allowed keys: "),
-        ({"radial": [0, 0, 1]}, r"Fan\.radial: rotor_axis .* must be two directions, not parallel"),
-        ({"radial": [0, 1, 0]}, r"Fan\.radial: the blade's middle lies at"),
-        ({"hub": {"radius_m": 0.1}}, r"fan\.csv: blade Fan: hub: its radius of 0\.1 m lies outside the sections"),
-        ({"tip": {"radius_m": 0.1}}, r"the tip, at a radius of 0\.1 m, does not lie above the hub"),
-        ({"tip": "sections/none.curve"}, r"Fan\.tip: sections/none\.curve cannot be read"),
-        ({"hub": {}}, r"Fan\.hub: found none of radius_m and cone_zr_m"),
-        ({"hub": "sections/fan.csv"}, r"Fan\.hub: sections/fan\.csv:1: value 1: 'section' is not a number"),
-        ({"sections": "sections/none.csv"}, r"Fan\.sections: there is no file sections/none\.csv"),
-        ({"sweep_lean": []}, r"Fan\.sweep_lean: found \[\]; allowed: "),
-        ({"chordwise_sweep_deg": 1.0, "stacking_table": "a.csv"}, r"at most one of stacking_table, sweep_lean, chordwise"),
-        ({"profiles": "a.csv"}, r"Fan: found unknown key profiles"),
-        ({"thickness_percent": 110}, r"Fan\.thickness_percent: .*given by sections has no arcs"),
+        ("", r"sections/fan\.csv:1: blade Fan: the table lacks the columns section, x, y, z"),
+        ("section,x,y,z\n", r"fan\.csv:1: blade Fan: found no rows"),
+        (csv_text(fan()[:1]), r"fan\.csv:2: .*found 1 section; allowed: at least 2, from hub to tip"),
+        (csv_text([curve[::20] for curve in fan()]), r"fan\.csv:2: .*found a section of 6 points; allowed: at lea"),
+        (with_points([20, 40], [40, 20]), r"\.csv:\d+: .*: section 4 of 9 from the hub: the curve crosses itself"),
+        (with_points([30, 31], [31, 30]), r"crosses itself, between points 30 and 31 and points 32 and 33"),
+        (three_sides(), r"\.csv:2: .*found 3 values in the column side of one section; allowed: one or two"),
+        (csv_text(section_without_trailing_edge()), r"fan\.csv:2: .*found no \w+ edge: the curve is as thick"),
+        (csv_text([*fan()[:3], *fan()[2:5]]), r"fan\.csv: blade Fan: section 4 of 6 .*does not lie wholly above"),
+        (FAN + "0.1\n" * 10**6, r"fan\.csv:1: .*found 1\d{6} lines; allowed: at most 200000 points"),
+        (csv_text(fan(), 1e3), r"Fan\.length_unit: the blade would be .*fitting units: mm"),
     ],
 )
-def test_an_entry_is_refused_with_what_fits(settings_with, changes, message):
+def test_a_broken_table_is_one_line(settings_with, text, message):
     with pytest.raises(ConfigError, match=message) as refusal:
-        settings_with(FAN, **changes)
+        settings_with(text)
+    assert len(str(refusal.value).splitlines()) == 1
+
+
+def test_files_of_other_kinds(settings_with):
+    for name, text, message in (
+        ("fan.curve", "# nothing\n", r"fan\.curve:1: blade Fan: found no points"),
+        ("fan.dat", FAN, r"fan\.dat: blade Fan: found a file of kind '\.dat'; allowed: \.curve, \.crv, \.geomTurbo, \.csv"),
+        (
+            "fan.geomTurbo",
+            TURBO + TURBO,
+            r"fan\.geomTurbo:\d+: .*found 2 blades, with suction sides in lines 6, \d+; allowed: one",
+        ),
+    ):
+        with pytest.raises(ConfigError, match=message):
+            settings_with(text, name)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda curve: np.add(curve, [0.0, 0.0, 0.05]), r"axial place \+50 mm"),
+        (lambda curve: curve * [-1.0, -1.0, 1.0], "place round the axis -8"),
+        (lambda curve: twisted(curve, 10.0), r"stagger -9\.\d+ degrees off"),
+        (lambda curve: curve * [1.0, 1.3, 1.3], r"length \+3\d\.\d mm off"),
+        (lambda curve: np.delete(curve, slice(15, 30), axis=0), r"gap of \d+\.?\d* mm after po"),
+        (lambda curve: with_outlier(curve, 2), "inward corner of .* at point"),
+        (lambda curve: with_outlier(curve, 0), "radius 5 mm off .* at point 31 of"),
+    ],
+)
+def test_a_section_that_no_blade_has_is_named(settings_with, change, message):
+    with pytest.raises(ConfigError, match=rf"fan\.csv:356: .*section 4 of 9 .*{message}"):
+        settings_with(changed_section(change))
+
+
+def test_of_five_sections_one_out_of_line_is_named(settings_with):
+    with pytest.raises(ConfigError, match=r"\.csv:238: .*section 3 of 5 .*axial place \+50 mm"):
+        settings_with(changed_section(lambda curve: np.add(curve, [0.0, 0.0, 0.05]), 2, 5))
+
+
+@pytest.mark.parametrize(("kind", "changes", "message"), refusal_rows(TABLE, "sections"))
+def test_an_entry_is_refused_with_what_fits(settings_with, kind, changes, message):
+    with pytest.raises(ConfigError, match=pattern_of(message)) as refusal:
+        settings_with(FAN, **yaml.safe_load(changes))
     assert len(str(refusal.value).splitlines()) == 1
 
 

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from r37core.fem.elements import ELEMENTS
 from r37imports.refusal import ImportRefused
 
-from .deck_text import deck_lines, included, keyword_and_options
+from .deck_text import deck_lines, keyword_and_options
 from .raw_mesh import RawMesh, solid_blocks
 
 T = TypeVar("T")
@@ -45,8 +45,7 @@ class _Deck:
     nodes_of_elements: list[tuple[str, str]] = field(default_factory=list)
     surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
     held: list[tuple[str, range]] = field(default_factory=list)
-    parts: list[str] = field(default_factory=list)
-    instances: dict[str, list[list[str]]] = field(default_factory=dict)
+    components: dict[str, list[tuple[str, list[list[str]]]]] = field(default_factory=dict)
     scope: str = ""
 
 
@@ -58,7 +57,7 @@ def read_abaqus(file: Path) -> RawMesh:
     Raises ImportRefused for decks with several parts or instances, and for what cannot be read.
     """
     deck = _Deck()
-    for keyword, options, rows in _blocks(file, set()):
+    for keyword, options, rows in deck_blocks(file):
         _take(deck, keyword, options, rows)
     labels = np.array(list(deck.points), dtype=np.int64)
     number = {label: i for i, label in enumerate(deck.points)}
@@ -72,25 +71,17 @@ def read_abaqus(file: Path) -> RawMesh:
     return RawMesh(points, labels, solid_blocks(cells), sets)
 
 
-def _blocks(file: Path, known: set[Path]) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]:
-    """Keyword, options and data rows of every block, comments left out and included files read in place.
-
-    A file that is included again is among the `known` ones: it would say the same once more.
-    """
+def deck_blocks(file: Path) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]:
+    """Keyword, options and data rows of every block of a deck and of what it includes."""
     keyword = ""
     options: dict[str, str] = {}
     rows: list[list[str]] = []
     for line in deck_lines(file):
-        if not line.startswith("*"):
+        if line.startswith("*"):
+            yield keyword, options, rows
+            (keyword, options), rows = keyword_and_options(line), []
+        else:
             rows.append([cell.strip() for cell in line.split(",")])
-            continue
-        yield keyword, options, rows
-        (keyword, options), rows = keyword_and_options(line), []
-        if keyword == "INCLUDE":
-            if (other := included(file, options)) not in known:
-                known.add(other)
-                yield from _blocks(other, known)
-            keyword = ""
     yield keyword, options, rows
 
 
@@ -101,7 +92,12 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
         raise ImportRefused("found *NODE in cylindrical or spherical coordinates; write the deck in Cartesian ones")
     if keyword in ("PART", "ASSEMBLY", "INSTANCE"):
         deck.scope = keyword
-        _check_parts(deck, keyword, options, rows)
+        # nodes of its own may follow how an instance is placed
+        known = deck.components.setdefault(keyword, [])
+        known.append((options.get("NAME", "?"), rows))
+        if len(known) > 1:
+            names = ", ".join(name for name, _ in known)
+            raise ImportRefused(f"found several {keyword.lower()}s ({names}); allowed: one blade in one part")
     elif keyword.startswith("END "):
         deck.scope = "ASSEMBLY" if keyword == "END INSTANCE" else ""
     elif keyword == "NODE" and deck.scope == "ASSEMBLY":
@@ -123,21 +119,9 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
         deck.surfaces[options.get("NAME", "")] = [(row[0], row[1].upper() if len(row) > 1 else "") for row in rows]
 
 
-def _check_parts(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[str]]) -> None:
-    name = options.get("NAME", "?")
-    if keyword == "PART":
-        deck.parts.append(name)
-    if keyword == "INSTANCE":
-        # nodes of its own may follow how it is placed
-        deck.instances[name] = rows
-    for what, names in (("parts", deck.parts), ("instances", list(deck.instances))):
-        if len(names) > 1:
-            raise ImportRefused(f"found several {what} ({', '.join(names)}); allowed: one blade in one part")
-
-
 def _placed(deck: _Deck, points: np.ndarray) -> np.ndarray:
     """The points where the deck's instance stands: shifted, then turned about an axis (Abaqus, *INSTANCE)."""
-    for name, rows in deck.instances.items():
+    for name, rows in deck.components.get("INSTANCE", []):
         try:
             shift, *turn = [np.array([float(cell) for cell in row if cell]) for row in rows] or [np.zeros(3)]
             points = points + shift

@@ -5,7 +5,7 @@ Light: the configuration imports it.
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 
 from r37imports.refusal import ImportRefused
@@ -23,19 +23,6 @@ def is_deck(file: Path) -> bool:
     return bool(re.match(r"\*[A-Za-z]", first)) and not first.upper().startswith("*KEYWORD")
 
 
-def deck_lines(file: Path) -> Iterator[str]:
-    """Lines without blanks at their ends, comments and empty ones left out; a keyword line and what continues it are one."""
-    unfinished = ""
-    with open(file, encoding="utf-8-sig", errors="replace") as text:
-        for line in map(str.strip, text):
-            if not line or line.startswith("**"):
-                continue
-            line = unfinished + line
-            unfinished = line if line.startswith("*") and line.endswith(",") else ""
-            if not unfinished:
-                yield line
-
-
 def keyword_and_options(line: str) -> tuple[str, dict[str, str]]:
     """Keyword, "" of a line of data, and options of `*KEYWORD, OPTION=value, ...`; keyword and names of options in capitals."""
     if not line.startswith("*"):
@@ -49,38 +36,48 @@ _DEEPEST = 50
 """Files of which each includes the next."""
 
 
-def included_files(deck: Path) -> list[Path]:
-    """The files that a deck includes, directly or not, each once.
+def deck_lines(deck: Path, files: dict[Path, None] | None = None, above: tuple[Path, ...] = ()) -> Iterator[str]:
+    """Lines of a deck and of what it includes, in place: without blanks at their ends, comments and empty ones left out.
 
-    Raises ImportRefused for a file that is not there, for one that includes itself, and for a long chain of files.
+    A keyword line and what continues it are one. A file that is included again says the same once more, and is left out.
+    `files`: takes the included ones in; `above`: those that include this one. Raises ImportRefused for a file that is not
+    there, for one that includes itself, and for a long chain of files.
     """
-    files: dict[Path, None] = {}
-    _include(deck, [], files)
-    return list(files)
-
-
-def included(deck: Path, options: Mapping[str, str]) -> Path:
-    """The file that a line *INCLUDE of a deck names. Raises ImportRefused where it is not there."""
-    called = options.get("INPUT")
-    if not called:
-        raise ImportRefused(f"{deck.name} has a line *INCLUDE that names no file; allowed: *INCLUDE, INPUT=FILE", "mesh")
-    file = deck.parent / called
-    if not os.path.isfile(file):
-        raise ImportRefused(f"there is no file {called}, which {deck.name} includes", "mesh")
-    return file.resolve()
-
-
-def _include(deck: Path, above: list[Path], files: dict[Path, None]) -> None:
-    above = [*above, deck.resolve()]
+    files = {} if files is None else files
+    above = (*above, deck.resolve())
     if len(above) > _DEEPEST:
         raise ImportRefused(f"{deck.name} is included over {_DEEPEST} files; put what it holds into fewer files", "mesh")
-    for line in deck_lines(deck):
-        keyword, options = keyword_and_options(line)
-        if keyword != "INCLUDE":
-            continue
-        file = included(deck, options)
-        if file in above:
-            raise ImportRefused(f"{deck.name} includes {file.name}, which includes it; take one *INCLUDE out", "mesh")
-        if file not in files:
-            files[file] = None
-            _include(file, above, files)
+    unfinished = ""
+    with open(deck, encoding="utf-8-sig", errors="replace") as text:
+        for line in map(str.strip, text):
+            if not line or line.startswith("**"):
+                continue
+            line = unfinished + line
+            unfinished = line if line.startswith("*") and line.endswith(",") else ""
+            if unfinished:
+                continue
+            keyword, options = keyword_and_options(line)
+            if keyword != "INCLUDE":
+                yield line
+                continue
+            called = options.get("INPUT")
+            if not called:
+                raise ImportRefused(
+                    f"{deck.name} has a line *INCLUDE that names no file; allowed: *INCLUDE, INPUT=FILE", "mesh"
+                )
+            file = (deck.parent / called).resolve()
+            if not os.path.isfile(file):
+                raise ImportRefused(f"there is no file {called}, which {deck.name} includes", "mesh")
+            if file in above:
+                raise ImportRefused(f"{deck.name} includes {file.name}, which includes it; take one *INCLUDE out", "mesh")
+            if file not in files:
+                files[file] = None
+                yield from deck_lines(file, files, above)
+
+
+def included_files(deck: Path) -> list[Path]:
+    """The files that a deck includes, directly or not, each once. Raises ImportRefused as `deck_lines`."""
+    files: dict[Path, None] = {}
+    for _ in deck_lines(deck, files):
+        pass
+    return list(files)

@@ -9,13 +9,13 @@ from scipy.spatial import cKDTree
 from r37core.fem.surface import outer_faces
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 from r37imports.placement import to_blade, warn_of_size
-from r37imports.refusal import ImportRefused, Refusals, blamed
+from r37imports.refusal import ImportRefused, blamed, kept
 
 from .abaqus_reader import read_abaqus
 from .ends import Caught, caught_by, check_end, check_root, find_end, find_platform
 from .fitting_entry import fitting_entry
 from .mesh_checks import checked, without_free_nodes
-from .meshio_reader import read_ansys, read_nastran, read_with_meshio
+from .meshio_reader import quietly, read_ansys, read_nastran, read_with_meshio
 from .raw_mesh import RawMesh
 from .source import MeshSource, kind_of, mesh_files
 from .tip import TipLines, check_revolution, check_sense, find_tip_lines
@@ -29,10 +29,9 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
 
     Raises ImportRefused, with the file's name and the reason, for a mesh that cannot be computed with.
     """
-    with blamed("mesh"):
-        file = mesh_files(source.file, Path(folder))[0]
+    file = mesh_files(source.file, Path(folder))[0]
     with blamed("mesh", source.file):
-        raw = _read(file)
+        raw = quietly(_READERS[kind_of(file)], file)
         raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, source.minimum_scaled_jacobian)
     placed = None
     try:
@@ -105,10 +104,10 @@ def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, Tip
     surface = outer_faces(raw.blocks)
     rules = {"root": source.root, "tip": source.tip}
     ends = {what: find_end(what, raw.points, surface) for what in rules}
-    refusals = Refusals(source.file)
+    refusals: list[ImportRefused] = []
     caught: dict[str, Caught] = {}
     for what, where in rules.items():
-        with refusals.of(what):
+        with kept(refusals, what):
             caught[what] = caught_by(where, what, raw, surface)
     if len(caught) == len(rules):
         with blamed("root", source.file):
@@ -116,30 +115,22 @@ def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, Tip
     tip = caught.get("tip")
     if source.end_check:
         for what, part in caught.items():
-            with refusals.of(what):
+            with kept(refusals, what):
                 check_end(what, rules[what], part, ends[what], raw.points, surface)
         # where the rule for the tip is refused, the sense is still judged by the faces that it should have caught
         casing = ends["tip"]
         tip = casing if casing is not None and casing.straight else tip
     if tip is not None:
-        with refusals.of("tip"):
+        with kept(refusals, "tip"):
             check_revolution(raw.points[tip.nodes], source.revolution_tolerance)
             lines = find_tip_lines(raw.points, tip.faces, source.pressure_side_forward)
             if source.sense_check:
                 check_sense(raw.points, lines, source.pressure_side_forward)
     # ends here where a part was not caught
-    refusals.tell()
+    if refusals:
+        reasons = dict.fromkeys(error.reason for error in refusals)
+        raise ImportRefused(f"{source.file}: " + "; and ".join(reasons), refusals[0].key)
     return caught["root"].nodes, caught["tip"].nodes, lines
-
-
-def _read(file: Path) -> RawMesh:
-    """The mesh of a file; ImportRefused for a file that is unknown or unsuitable."""
-    try:
-        return _READERS[kind_of(file)](file)
-    except ImportRefused:
-        raise
-    except Exception as error:
-        raise ImportRefused(f"cannot be read ({type(error).__name__}: {error}); write it again") from error
 
 
 _SECTIONS = 25

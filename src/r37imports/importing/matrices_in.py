@@ -81,8 +81,7 @@ def import_matrices(
     linear in the squared speed; BoundaryError for patches that the table has too few nodes for. Spin softening must be in the
     stiffness already.
     """
-    with blamed("matrices"):
-        files = matrix_files(source.folder, Path(folder))
+    files = matrix_files(source.folder, Path(folder))
     with blamed("matrices", source.folder):
         matrices = _read(files, source, max(reduction.speeds))
         model = _reduced(matrices, boundary, reduction)
@@ -254,7 +253,7 @@ def _fitted(speeds: np.ndarray, stiffness: list[sp.csr_array]) -> tuple[sp.csr_a
 def _boundary_first(size: int, dofs: np.ndarray, rows: np.ndarray) -> sp.csr_array:
     """Old coordinates from new ones: the boundary's first and turned to the blade's frame, the others behind."""
     others = np.setdiff1d(np.arange(size), dofs)
-    permutation = sp.csr_array((np.ones(size), (np.concatenate([dofs, others]), np.arange(size))), shape=(size, size))
+    permutation = sp.eye_array(size, format="csr")[:, np.concatenate([dofs, others])]
     turns = sp.block_diag([*([rows.T] * (len(dofs) // 3)), sp.eye_array(len(others))])
     return sp.csr_array(permutation @ turns)
 

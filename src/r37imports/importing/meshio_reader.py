@@ -2,7 +2,7 @@
 
 import contextlib
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +25,8 @@ _FIELDS = {"CTRIA3": 6, "CQUAD4": 7, "CTRIA6": 9, "CQUAD8": 11}
 
 
 def read_with_meshio(file: Path) -> RawMesh:
-    """The mesh of a file in a format of meshio; ImportRefused for whatever meshio does with a file it cannot read."""
-    return _raw(quietly(meshio.read, file))
+    """The mesh of a file in a format of meshio."""
+    return _raw(meshio.read(file))
 
 
 def read_nastran(file: Path) -> RawMesh:
@@ -50,7 +50,7 @@ def read_nastran(file: Path) -> RawMesh:
         f"{','.join(card[:9])}" + "".join(f"\n+,{','.join(card[i : i + 8])}" for i in range(9, len(card), 8))
         for card in (["BEGIN BULK"], *points, *(card[: _FIELDS.get(card[0])] for card in cards if card[0] != "GRID"))
     ]
-    return _raw(quietly(meshio.nastran.read, io.StringIO("\n".join([*lines, ""]))))
+    return _raw(meshio.nastran.read(io.StringIO("\n".join([*lines, ""]))))
 
 
 def read_ansys(file: Path) -> RawMesh:
@@ -63,10 +63,10 @@ def read_ansys(file: Path) -> RawMesh:
         ) from None
     # titles and names may be in Latin-1
     text = io.StringIO(file.read_text(encoding="utf-8", errors="replace"))
-    return _raw(quietly(lambda archive: meshlane.read(archive, "ansysInp"), text))
+    return _raw(meshlane.read(text, "ansysInp"))
 
 
-def quietly(read: Callable[[Any], Any], file: Path | io.StringIO) -> Any:
+def quietly(read: Callable[[Path], RawMesh], file: Path) -> RawMesh:
     """Result of `read` for the file, its prints kept back; ImportRefused for any error, and for an attempt to exit.
 
     That there is no room for a file is said by who writes it: see r37core.base.io.room_for.
@@ -75,14 +75,20 @@ def quietly(read: Callable[[Any], Any], file: Path | io.StringIO) -> Any:
     try:
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
             return read(file)
+    except ImportRefused:
+        raise
     except (Exception, SystemExit) as error:
         if getattr(error, "errno", None) in NO_ROOM:
             raise
         lacking = f"something names {error}, which the file lacks; are there elements without their mid-nodes?"
-        cause = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
+        cause = (
+            lacking
+            if isinstance(error, KeyError)
+            else f"{type(error).__name__}: {str(error) or 'the file is damaged'}; write it again"
+        )
         if "Incompatible cell data 'gmsh:physical'" in str(error):
             cause = "some elements are in no physical group: give all volumes one, or write with Mesh.SaveAll = 0"
-        elif str(file).endswith(".msh"):
+        elif read is read_with_meshio and file.suffix == ".msh":
             cause = "it is damaged, or has partitions or version 4.0: let gmsh write it with Mesh.MshFileVersion = 2.2"
         reason = " ".join(printed.getvalue().split()) or cause
         raise ImportRefused(f"the reader gave up: {reason}") from None
@@ -97,49 +103,46 @@ def _raw(mesh: Any) -> RawMesh:
 
 
 def _sets(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
-    """Named sets of nodes and of cells (as their nodes), groups of gmsh and MED, and whole-number fields by value."""
-    yield from _fields(mesh)
-    for number, names in (getattr(mesh, "cell_tags", None) or {}).items():
-        for name in names:
-            yield name, _nodes_where(mesh, "cell_tags", number)
-    for number, names in (getattr(mesh, "point_tags", None) or {}).items():
-        for name in names:
-            yield name, np.flatnonzero(mesh.point_data["point_tags"] == number)
-    if "gmsh:physical" in mesh.cell_data:
+    """Named sets of nodes and of cells (as their nodes), groups of gmsh and MED, and whole-number fields by value.
+
+    A field of whole numbers on nodes or cells is a set for each value: `name=value`, and `name` where it only marks nodes.
+    """
+    single, cells = np.arange(len(mesh.points))[:, None], [block.data for block in mesh.cells]
+    of_points = {name: [(single, np.asarray(values))] for name, values in mesh.point_data.items()}
+    of_cells = {name: list(zip(cells, map(np.asarray, parts), strict=True)) for name, parts in mesh.cell_data.items()}
+    for fields in (of_points, of_cells):
+        for name, pairs in fields.items():
+            if all(values.ndim == 1 and np.issubdtype(values.dtype, np.integer) for _, values in pairs):
+                distinct = np.unique(np.concatenate([values for _, values in pairs]))
+                for value in distinct[:_MOST_VALUES]:
+                    yield f"{name}={value}", _nodes_where(pairs, value)
+                if fields is of_points and set(distinct.tolist()) <= {0, 1}:
+                    yield name, _nodes_where(pairs, 1)
+    for kind, fields in (("cell_tags", of_cells), ("point_tags", of_points)):
+        for number, names in (getattr(mesh, kind, None) or {}).items():
+            for name in names:
+                yield name, _nodes_where(fields[kind], number)
+    if "gmsh:physical" in of_cells:
         for name, (number, dimension) in mesh.field_data.items():
-            yield name, _nodes_where(mesh, "gmsh:physical", number, int(dimension))
+            of_blocks = zip(mesh.cells, of_cells["gmsh:physical"], strict=True)
+            yield name, _nodes_where([pair for block, pair in of_blocks if block.dim == dimension], number)
     elif not getattr(mesh, "cell_tags", None):
         for name, members in mesh.cell_sets.items():
-            if name == _NO_SET:
-                continue
-            pairs = zip(mesh.cells, members, strict=True)
-            parts = [block.data[np.asarray(some, dtype=int)].ravel() for block, some in pairs if some is not None]
-            yield name, np.concatenate([np.empty(0, dtype=int), *parts])
+            # of gmsh's bounding entities meshio has numbers of surfaces, not of cells
+            if name != "gmsh:bounding_entities":
+                parts = [
+                    block[np.asarray(some, dtype=int)].ravel()
+                    for block, some in zip(cells, members, strict=True)
+                    if some is not None
+                ]
+                yield name, np.concatenate([np.empty(0, dtype=int), *parts])
     for name, nodes in mesh.point_sets.items():
         yield name, np.asarray(nodes, dtype=int)
 
 
-def _nodes_where(mesh: Any, field: str, number: int, dimension: int | None = None) -> np.ndarray:
-    """Nodes of the cells that have `number` in a field, of one dimension where it is given."""
-    pairs = zip(mesh.cells, mesh.cell_data[field], strict=True)
-    wanted = [block.data[values == number].ravel() for block, values in pairs if dimension in (None, block.dim)]
-    return np.concatenate([np.empty(0, dtype=int), *wanted])
-
-
-def _fields(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
-    """A field of whole numbers on nodes or cells is a set for each value: `name=value`, and `name` where it only marks."""
-    for name, values in mesh.point_data.items():
-        if values.ndim == 1 and np.issubdtype(values.dtype, np.integer):
-            distinct = np.unique(values)
-            for value in distinct[:_MOST_VALUES]:
-                yield f"{name}={value}", np.flatnonzero(values == value)
-            if set(distinct.tolist()) <= {0, 1}:
-                yield name, np.flatnonzero(values)
-    for name, parts in mesh.cell_data.items():
-        if all(np.ndim(part) == 1 and np.issubdtype(np.asarray(part).dtype, np.integer) for part in parts):
-            for value in np.unique(np.concatenate(parts))[:_MOST_VALUES]:
-                yield f"{name}={value}", _nodes_where(mesh, name, value)
+def _nodes_where(pairs: Iterable[tuple[np.ndarray, np.ndarray]], number: int) -> np.ndarray:
+    """Nodes of the cells that have `number` in a field, of `pairs` of cells and values."""
+    return np.concatenate([np.empty(0, dtype=int), *(nodes[values == number].ravel() for nodes, values in pairs)])
 
 
 _MOST_VALUES = 100
-_NO_SET = "gmsh:bounding_entities"  # of which meshio has numbers of gmsh's surfaces, not of cells

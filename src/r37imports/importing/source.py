@@ -233,19 +233,16 @@ def _plain(number: float) -> str:
     return np.format_float_positional(number, trim="-")
 
 
-def _set_members(what: str, name: str, mesh: RawMesh) -> np.ndarray:
-    """Mask over the nodes of a set, whose name may differ in capitals."""
+def _edge_nodes(what: str, name: str, mesh: RawMesh) -> np.ndarray:
+    """The nodes of a set, whose name may differ in capitals.
+
+    Where it has corners of elements alone, with the mid-nodes of edges between them.
+    """
     names = {known.upper(): known for known in mesh.sets}
     if name.upper() not in names:
         raise ImportRefused(f"{what}: found no set '{name}'")
     members = np.zeros(len(mesh.points), dtype=bool)
     members[mesh.sets[names[name.upper()]]] = True
-    return members
-
-
-def _edge_nodes(what: str, name: str, mesh: RawMesh) -> np.ndarray:
-    """The nodes of a set; where it has corners of elements alone, with the mid-nodes of edges between them."""
-    members = _set_members(what, name, mesh)
     middle = np.zeros(len(members), dtype=bool)
     between = np.zeros(len(members), dtype=bool)
     for kind, nodes in mesh.blocks.items():

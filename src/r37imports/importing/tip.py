@@ -5,6 +5,7 @@ from scipy.spatial import cKDTree
 
 from r37core.blade.sense import LEAST, TipSense, sense_of_line
 from r37core.fem.surface import Faces, area_vectors, loops, nodes_of, smooth_patches
+from r37imports.placement import in_degrees, refuse_sense
 from r37imports.refusal import ImportRefused, warn_of
 
 _CORNER = np.cos(np.radians(40.0))
@@ -12,7 +13,6 @@ _NEAR_END = 1.2  # mean thicknesses of the tip: a corner this near to the farthe
 _NEAR_CAMBER = 0.3  # of the local thickness: tip nodes that count as on the camber line
 _STEPS = np.linspace(0.0, 1.0, 201)  # fractions of the edges at which they are compared
 _DOWNSTREAM = 0.02  # of the chord: how far the trailing edge lies downstream at least
-_OVERRIDE = "sense_check: false takes the blade as it is"
 
 TipLines = dict[str, tuple[np.ndarray, np.ndarray]]
 """Name of a node set along the tip -> nodes from leading to trailing edge, fraction of the line's length of each."""
@@ -81,18 +81,10 @@ def check_sense(points: np.ndarray, lines: TipLines, pressure_forward: bool) -> 
     """
     sides = [_section_at(points[lines[name][0]], _STEPS) for name in ("tip_pressure_edge", "tip_suction_edge")]
     sense = sense_of_line(0.5 * (sides[0] + sides[1]))
-    fits = sense.fits(pressure_forward)
-    _check_lead(sides[0][[0, -1]], sense, fits)
-    if fits is False:
-        side, other = ("along", "backward") if pressure_forward else ("against", "forward")
-        raise ImportRefused(
-            f"found a pressure side that looks {side} the rotation and is convex (camber {_degrees(sense.camber)}, stagger "
-            f"{_degrees(sense.stagger)}); give pressure_side: {other}, or change both rotor_axis and rotation if rotor_axis "
-            f"points upstream; {_OVERRIDE}",
-            "pressure_side",
-        )
-    if fits is None:
-        _warn_unproved("pressure_side", f"the tip's camber of {_degrees(sense.camber)}")
+    refuse_sense(sides[0][[0, -1]], sense, pressure_forward)
+    _warn_of_stagger(sense)
+    if sense.fits(pressure_forward) is None:
+        _warn_unproved("pressure_side", f"the tip's camber of {in_degrees(sense.camber)}")
 
 
 def check_sense_of_nodes(points: np.ndarray) -> None:
@@ -103,27 +95,14 @@ def check_sense_of_nodes(points: np.ndarray) -> None:
     if len(points) == 1:
         _warn_unproved("rotation", "the stagger of a single contact node")
     else:
-        _check_lead(points[[0, -1]], sense_of_line(points[[0, -1]]), None)
+        sense = sense_of_line(ends := points[[0, -1]])
+        refuse_sense(ends, sense, None)
+        _warn_of_stagger(sense)
 
 
-def _check_lead(ends: np.ndarray, sense: TipSense, fits: bool | None) -> None:
-    """Refuse `ends`, the leading and the trailing edge, of which the second is ahead; `fits`: whether the camber fits."""
+def _warn_of_stagger(sense: TipSense) -> None:
     if sense.leads() is None:
-        _warn_unproved("rotation", f"the tip's stagger of {_degrees(sense.stagger)}")
-    if sense.leads() is not False:
-        return
-    key, remedy = {
-        None: ("rotation", "change rotation, or rotor_axis if it points upstream"),
-        True: ("rotor_axis", "change rotor_axis if it points upstream, else both rotation and pressure_side"),
-        False: ("rotation", "change rotation"),
-    }[fits]
-    leading, trailing = -np.arctan2(ends[:, 1], ends[:, 0])
-    raise ImportRefused(
-        f"found the tip's leading edge at {_degrees(leading)} and its trailing edge at {_degrees(trailing)} round the axis, "
-        f"counted in the direction of rotation (stagger {_degrees(sense.stagger)}); allowed: a leading edge that is ahead, as "
-        f"in compressors and turbines; {remedy}; {_OVERRIDE}",
-        key,
-    )
+        _warn_unproved("rotation", f"the tip's stagger of {in_degrees(sense.stagger)}")
 
 
 def _warn_unproved(key: str, shown: str) -> None:
@@ -131,10 +110,6 @@ def _warn_unproved(key: str, shown: str) -> None:
         f"{key} is taken as given: {shown} does not prove it ({np.degrees(LEAST):g} degrees would). Make sure of it"
         + (": with a wrong one a blade looks safe that is not" if key == "rotation" else "")
     )
-
-
-def _degrees(angle: float) -> str:
-    return f"{np.degrees(angle):+.1f} degrees"
 
 
 def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: bool) -> TipLines:

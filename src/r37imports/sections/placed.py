@@ -12,12 +12,12 @@ from r37core.base.units import LENGTH_UNITS
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.sense import sense_of_line
 from r37core.fem.orientation import Orientation
-from r37imports.placement import check_place, fitting_units
-from r37imports.refusal import ASKED, ImportRefused
+from r37imports.placement import check_place, fitting_units, refuse_sense
+from r37imports.refusal import ASKED, UNLESS, ImportRefused
 from r37imports.sections.definition import SectionsDefinition
 from r37imports.sections.section_curve import SectionCurve
 
-from .plausible import UNLESS, check_points, check_succession
+from .plausible import check_points, check_succession
 from .section_file import FileSection, SectionFile
 
 OWN = "sections"
@@ -123,31 +123,17 @@ def check_ends(definition: SectionsDefinition, orientation: Orientation, entered
 
 def check_sections_sense(definition: SectionsDefinition) -> None:
     """Refuse a rotation, rotor axis or pressure side that the last section contradicts, with ImportRefused."""
-    sense = sense_of_line(definition.curves[-1].camber_line(_SHARES))
-    angles = f"stagger {np.degrees(sense.stagger):.1f}, camber {np.degrees(sense.camber):.1f} degrees"
-    fits = sense.fits(definition.pressure_forward)
-    if sense.leads() is False:
-        raise ImportRefused(
-            f"found the tip's trailing edge ahead in the rotation ({angles}); allowed: a leading edge that is ahead, as in "
-            f"compressors and turbines; change rotation{'' if fits else ', or rotor_axis if that points upstream'}; {UNLESS}",
-            "rotation",
-        )
-    if fits is False:
-        other = "backward" if definition.pressure_forward else "forward"
-        raise ImportRefused(
-            f"found a convex pressure side ({angles}); give pressure_side: {other}, or change both rotor_axis and rotation if "
-            f"rotor_axis points upstream; {UNLESS}",
-            "pressure_side",
-        )
+    line = definition.curves[-1].camber_line(_SHARES)
+    refuse_sense(line[[0, -1]], sense_of_line(line), definition.pressure_forward)
 
 
 def fitting_unit(file: SectionFile, orientation: Orientation, stated: str) -> tuple[str, str]:
     """The `stated` or the likeliest unit, and the line that answers so; ImportRefused where none fits.
 
-    `orientation` has any unit.
+    `orientation` has the unit of a metre.
     """
     points = np.concatenate([section.points for section in file.sections])
-    placed = replace(orientation, length_unit=1.0).points_to_blade(points)
+    placed = orientation.points_to_blade(points)
     radius = np.hypot(placed[:, 0], placed[:, 1])
     # no program writes these
     units = sorted(fitting_units(float(np.ptp(radius))), key=lambda unit: (unit != stated, unit in ("ft", "um")))

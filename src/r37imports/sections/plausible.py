@@ -6,6 +6,7 @@ import numpy as np
 
 from r37core.base.io import TextFileError
 from r37core.blade.profile import BladeShapeError, area_and_centroid
+from r37imports.refusal import UNLESS
 from r37imports.sections.section_curve import SectionCurve, turns
 
 _GAP, _GAP_RATIO = 0.1, 3.0
@@ -16,8 +17,6 @@ _OFF = 0.01
 """Share of the section's length by which no point of a blade lies off the radius of those next to it."""
 _PLACE, _STAGGER, _LENGTH, _CURVATURES = 0.05, 5.0, 0.1, 3.0
 """Deviations of a section, well above those of bent ends: shares of its length, degrees; and of curvatures of the others."""
-UNLESS = "sense_check: false takes the blade as it is"
-"""Advice on a blade that is odd and right."""
 
 
 def check_points(curve: SectionCurve) -> None:

@@ -12,7 +12,7 @@ from r37core.blade.blade_map import BladeMap, edge_share
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.stacking import Placement
 
-from .section_curve import SectionCurve
+from .section_curve import SectionCurve, cartesian
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -93,8 +93,7 @@ class SectionBlade(BladeMap):
         lines = np.array([self._section_points(number, chord, thickness) for number in range(len(self.sections))])
         first = np.zeros(len(span)) if self.hub is None else self._met(lines, self.hub, 0.0, "hub")
         last = np.ones(len(span)) if self.tip is None else self._met(lines, self.tip, 1.0, "tip")
-        radius, theta, axial = np.einsum("ps,scp->cp", self._weights(first + span * (last - first)), lines)
-        return np.stack([radius * np.cos(theta), radius * np.sin(theta), axial], axis=1)
+        return cartesian(np.einsum("ps,scp->cp", self._weights(first + span * (last - first)), lines).T)
 
     def _section_points(self, number: int, chord: np.ndarray, thickness: np.ndarray) -> np.ndarray:
         """(r, theta, z) in one section, shape (3, points): straight from side to side, bent outwards at round edges."""

@@ -169,7 +169,7 @@ class SectionCurve:
 
     def camber_line(self, shares: np.ndarray) -> np.ndarray:
         """Points half-way between the sides, shape (n, 3), m, in the blade's frame, from leading to trailing edge."""
-        return _cartesian(0.5 * (self.pressure.point(shares) + self.suction.point(shares)).T)
+        return cartesian(0.5 * (self.pressure.point(shares) + self.suction.point(shares)).T)
 
     def rotated(self, angle: float) -> tuple[Point, ...]:
         """Points of the section turned on its cone about its centre of area, so that `angle` (rad) is added to its stagger.
@@ -180,7 +180,7 @@ class SectionCurve:
         for _ in range(5):
             # on the unrolled cone angles are nearly those that the stagger is measured by
             turn += angle - (self._direction(self._turned(self._noses, turn)) - self.stagger)
-        return tuple(map(tuple, _cartesian(self._turned(self.points, turn)).tolist()))
+        return tuple(map(tuple, cartesian(self._turned(self.points, turn)).tolist()))
 
     def _turned(self, points: np.ndarray, angle: float) -> np.ndarray:
         """Points (r, theta, z), shape (n, 3), turned on the unrolled cone by `angle` (rad) about the centre of area."""
@@ -214,7 +214,7 @@ class _EdgeLimits:
 def _edge(arc: np.ndarray, is_round: bool) -> SectionEdge:
     """Edge of an arc from the pressure to the suction side."""
     corners = arc[[0, -1]]
-    width = float(np.linalg.norm(np.diff(_cartesian(corners), axis=0)))
+    width = float(np.linalg.norm(np.diff(cartesian(corners), axis=0)))
     return SectionEdge(corners, CurvePart.through(arc) if is_round else None, 0.5 * width)
 
 
@@ -231,7 +231,8 @@ def _cylindrical(points: np.ndarray) -> np.ndarray:
     return np.stack([np.hypot(x, y), middle + turned, z], axis=1)
 
 
-def _cartesian(points: np.ndarray) -> np.ndarray:
+def cartesian(points: np.ndarray) -> np.ndarray:
+    """Points in the blade's frame, shape (n, 3), of (r, theta, z)."""
     r, theta, z = points.T
     return np.stack([r * np.cos(theta), r * np.sin(theta), z], axis=1)
 
@@ -313,27 +314,20 @@ def _sampled(points: np.ndarray, plane: np.ndarray) -> tuple[np.ndarray, np.ndar
     A spline ends at a corner. Sample i * _PER_INTERVAL is point i.
     """
     count, corners = len(points), _corners(plane)
-    closed = np.concatenate([points, points[:1]])
-    lengths = np.linalg.norm(np.diff(np.concatenate([plane, plane[:1]]), axis=0), axis=1)
-    places = np.concatenate([[0.0], np.cumsum(lengths)])
-    shares = np.arange(_PER_INTERVAL) / _PER_INTERVAL
-    wanted = (places[:-1, None] + lengths[:, None] * shares).ravel()
+    # once round, from the first corner where there is one
+    start = corners.min(initial=count) % count
+    order = (start + np.arange(count + 1)) % count
+    lengths = np.linalg.norm(np.diff(plane[order], axis=0), axis=1)
+    places, closed = np.concatenate([[0.0], np.cumsum(lengths)]), points[order]
+    wanted = (places[:-1, None] + lengths[:, None] * (np.arange(_PER_INTERVAL) / _PER_INTERVAL)).ravel()
     if not len(corners):
         return scipy.interpolate.CubicSpline(places, closed, bc_type="periodic")(wanted), corners
-    # from the first corner once round
-    order = (corners[0] + np.arange(count + 1)) % count
-    rolled_lengths = np.roll(lengths, -corners[0])
-    rolled = np.concatenate([[0.0], np.cumsum(rolled_lengths)])
-    wanted = (rolled[:-1, None] + rolled_lengths[:, None] * shares).ravel()
-    breaks = [*(corners - corners[0]), count]
     samples = np.empty((len(wanted), 3))
-    for first, last in pairwise(breaks):
-        spline = scipy.interpolate.make_interp_spline(
-            rolled[first : last + 1], points[order[first : last + 1]], k=min(3, last - first)
-        )
-        part = slice(first * _PER_INTERVAL, last * _PER_INTERVAL)
+    for first, last in pairwise([*(corners - start), count]):
+        between, part = slice(first, last + 1), slice(first * _PER_INTERVAL, last * _PER_INTERVAL)
+        spline = scipy.interpolate.make_interp_spline(places[between], closed[between], k=min(3, last - first))
         samples[part] = spline(wanted[part])
-    return np.roll(samples, corners[0] * _PER_INTERVAL, axis=0), corners * _PER_INTERVAL
+    return np.roll(samples, start * _PER_INTERVAL, axis=0), corners * _PER_INTERVAL
 
 
 def _ends(plane: np.ndarray, z: np.ndarray) -> tuple[int, int]:
@@ -357,7 +351,7 @@ def _near_end(plane: np.ndarray, end: int, other: int, corners: np.ndarray) -> n
     end_distance, other_distance = (np.linalg.norm(plane[corners] - plane[place], axis=1) for place in (end, other))
     near = corners[end_distance < other_distance]
     distance = np.linalg.norm(plane[near] - plane[end], axis=1)
-    return near[np.argsort(distance, kind="stable")][:2] if len(near) else near
+    return near[np.argsort(distance, kind="stable")][:2]
 
 
 def _thickness_limits(plane: np.ndarray, end: int, other: int, sharp: bool) -> _EdgeLimits | None:
@@ -367,23 +361,26 @@ def _thickness_limits(plane: np.ndarray, end: int, other: int, sharp: bool) -> _
     thinnest = _THINNEST * largest
     depths = chord * np.concatenate([np.geomspace(1e-5, 0.02, 200), np.linspace(0.02, _DEEPEST, 201)[1:]])
     inward, nose = (plane[other] - plane[end]) / chord, end
-    for _ in range(1 if sharp else 8):
+    first = 0
+    for _ in range(8):
         if not sharp:
             near = (end + np.arange(-count // 8, count // 8 + 1)) % count
             nose = int(near[np.argmin(plane[near] @ inward)])
         places = [_places_at(plane, nose, inward, depths, step) for step in (-1, 1)]
         sides = [_interpolated(plane, nose + place) for place in places]
         thickness = np.linalg.norm(sides[0] - sides[1], axis=1)
+        if sharp:
+            break
         begun = np.flatnonzero(thickness <= 2.0 * depths)
-        first = int(begun[0]) if len(begun) and not sharp else None
-        if first is None and not sharp:
+        if not len(begun):
             return None
-        if first is None or first == 0:
+        first = int(begun[0])
+        if not first:
             break
         middle = 0.5 * (sides[0][first] + sides[1][first]) - plane[nose]
         inward = middle / np.linalg.norm(middle)
-    is_round = first is not None and first > 0 and thickness[first] >= thinnest
-    if first is not None and is_round:
+    is_round = first > 0 and thickness[first] >= thinnest
+    if is_round:
         # between two of the depths
         excess = thickness[first - 1 : first + 1] - 2.0 * depths[first - 1 : first + 1]
         share = excess[0] / (excess[0] - excess[1])

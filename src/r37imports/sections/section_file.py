@@ -13,6 +13,8 @@ import numpy as np
 from r37core.base.io import TextFileError, read_text
 from r37core.blade.profile import BladeShapeError
 
+from .section_curve import cartesian
+
 _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([ed][-+]?[0-9]+)?", re.IGNORECASE)
 _EQUAL, _LARGEST = 1e-9, 1e9
 """Distance of two points that are one, as a share of the section's size; a number beyond any coordinate in any unit."""
@@ -142,8 +144,8 @@ def read_meridian(file: Path) -> np.ndarray:
 
 
 _COUNT = re.compile(r"\+?0*[1-9][0-9]{0,8}", re.ASCII)
-_FORMS = ("xyz", "zrth", "rthz")
-"""Coordinates of a section: x y z; or z, r and the angle (rad); or r, the angle and z."""
+_FORMS = {"xyz": None, "zrth": [1, 2, 0], "rthz": [0, 1, 2]}
+"""Coordinates of a section: x y z, or places of r, of the angle (rad) and of z."""
 
 Line = tuple[int, str]
 
@@ -188,14 +190,8 @@ def _section(rest: Iterator[Line], line: int) -> tuple[int, np.ndarray]:
     if form.lower() not in _FORMS:
         raise TextFileError(line, f"found coordinates '{form}'; allowed: {', '.join(_FORMS).upper()}")
     points = [point_in(text, number) for number, text in (_next(rest, line) for _ in range(_count(rest, line)))]
-    return line, _cartesian(np.array(points), form.lower())
-
-
-def _cartesian(points: np.ndarray, form: str) -> np.ndarray:
-    if form == "xyz":
-        return points
-    z, r, angle = points.T if form == "zrth" else points[:, [2, 0, 1]].T
-    return np.stack([r * np.cos(angle), r * np.sin(angle), z], axis=1)
+    order, found = _FORMS[form.lower()], np.array(points)
+    return line, found if order is None else cartesian(found[:, order])
 
 
 def _channel(lines: list[Line], name: str) -> np.ndarray | None:
