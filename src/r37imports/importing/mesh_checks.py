@@ -52,8 +52,7 @@ def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.
 
 
 def _check_free_nodes(mesh: RawMesh) -> None:
-    used = np.unique(np.concatenate([nodes.ravel() for nodes in mesh.blocks.values()]))
-    free = np.setdiff1d(np.arange(len(mesh.points)), used)
+    free = np.setdiff1d(np.arange(len(mesh.points)), _used_nodes(mesh))
     if len(free):
         raise ImportRefused(
             f"{len(free)} of {len(mesh.points)} nodes belong to no solid element ({_some(mesh.labels[free])}); take them out, "
@@ -61,9 +60,13 @@ def _check_free_nodes(mesh: RawMesh) -> None:
         )
 
 
+def _used_nodes(mesh: RawMesh) -> np.ndarray:
+    return np.unique(np.concatenate([nodes.ravel() for nodes in mesh.blocks.values()]))
+
+
 def without_free_nodes(mesh: RawMesh) -> RawMesh:
     """The mesh without the nodes that belong to no solid element."""
-    used = np.unique(np.concatenate([nodes.ravel() for nodes in mesh.blocks.values()]))
+    used = _used_nodes(mesh)
     new_number = np.full(len(mesh.points), -1)
     new_number[used] = np.arange(len(used))
     sets = {name: new_number[nodes][new_number[nodes] >= 0] for name, nodes in mesh.sets.items()}

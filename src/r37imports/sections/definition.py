@@ -40,7 +40,7 @@ class SectionsDefinition(Shape):
     def curve(self, number: int) -> SectionCurve:
         """Section with its sides, by its number from 0 at the hub. Raises BladeShapeError for a curve that is no section."""
         label = f"section {number + 1} of {len(self.sections)} from the hub"
-        return section_curve(self.sections[number], label, self.pressure_forward)
+        return _section_curve(self.sections[number], label, self.pressure_forward)
 
     @property
     def curves(self) -> tuple[SectionCurve, ...]:
@@ -57,6 +57,10 @@ class SectionsDefinition(Shape):
         """Distance of the first section from the last (m)."""
         return self.curve(len(self.sections) - 1).radius - self.curve(0).radius
 
+    def _ends(self) -> tuple[Meridian | None, ...]:
+        """What cuts the blade at hub and tip."""
+        return tuple(Meridian(points) if points else None for points in (self.hub, self.tip))
+
     def places(self) -> np.ndarray:
         """Fraction of the height from hub to tip at which each section lies; BladeShapeError unless these rise."""
         curves = self.curves
@@ -68,8 +72,8 @@ class SectionsDefinition(Shape):
                     f"{below.radius:.5g} m); allowed: sections in their order from hub to tip, or from tip to hub"
                 )
         radii = np.array([curve.radius for curve in curves])
-        first = radii[0] if self.hub is None else float(Meridian(self.hub).radius(np.array(curves[0].z)))
-        last = radii[-1] if self.tip is None else float(Meridian(self.tip).radius(np.array(curves[-1].z)))
+        pairs = zip(self._ends(), (curves[0], curves[-1]), strict=True)
+        first, last = (curve.radius if end is None else float(end.radius(np.array(curve.z))) for end, curve in pairs)
         if not last > first:
             raise BladeShapeError(f"the tip, at a radius of {last:.5g} m, does not lie above the hub, at {first:.5g} m")
         places = (radii - first) / (last - first)
@@ -114,21 +118,10 @@ class SectionsDefinition(Shape):
                 placement = sweep_and_lean(places, np.array(self.stacking))
             elif self.chordwise_sweep_angle is not None:
                 placement = chordwise_sweep(self.curves, self.chordwise_sweep_angle)
-            return SectionBlade(
-                self.curves,
-                places,
-                placement,
-                None if self.hub is None else Meridian(self.hub),
-                None if self.tip is None else Meridian(self.tip),
-                round_edges,
-                self.pressure_forward,
-            )
+            return SectionBlade(self.curves, places, placement, *self._ends(), round_edges, self.pressure_forward)
         except BladeShapeError as error:
             raise BladeShapeError(f"blade {self.name}: {error}") from None
 
 
 # designs of a family start from the same sections, and a call reads them several times; one takes 0.3 MB
-@lru_cache(maxsize=2**7)
-def section_curve(points: tuple[Point, ...], label: str, pressure_forward: bool) -> SectionCurve:
-    """A section with its sides, made once. Raises as SectionCurve."""
-    return SectionCurve(points, label, pressure_forward)
+_section_curve = lru_cache(maxsize=2**7)(SectionCurve)

@@ -73,7 +73,7 @@ def joined_sides(side: np.ndarray, other: np.ndarray) -> np.ndarray:
 _COLUMNS = ("section", "x", "y", "z")
 
 
-def read_table(text: str) -> tuple[FileSection, ...]:
+def read_table(text: str) -> SectionFile:
     """Sections of a table (CSV), in the order of their first rows. Raises TextFileError.
 
     Columns section, x, y, z, and side where the two sides of a section are apart.
@@ -100,7 +100,7 @@ def read_table(text: str) -> tuple[FileSection, ...]:
         raise TextFileError(reader.line_num, f"not readable as a table separated by commas: {error}") from None
     if not sections:
         raise TextFileError(1, "found no rows; needed: section, x, y, z of each point")
-    return tuple(_joined_section(sides, lines[name]) for name, sides in sections.items())
+    return SectionFile(tuple(_joined_section(sides, lines[name]) for name, sides in sections.items()))
 
 
 def _joined_section(sides: dict[str, list[list[float]]], line: int) -> FileSection:
@@ -113,7 +113,7 @@ def _joined_section(sides: dict[str, list[list[float]]], line: int) -> FileSecti
 _REMARK = ("#", "!", "//")
 
 
-def read_profiles(text: str) -> tuple[FileSection, ...]:
+def read_profiles(text: str) -> SectionFile:
     """Sections of a profile.curve of BladeGen or TurboGrid. Raises TextFileError.
 
     Points x y z, one a line; a line that begins with # starts a profile.
@@ -131,7 +131,7 @@ def read_profiles(text: str) -> tuple[FileSection, ...]:
         profiles[-1][1].append(point_in(line, number))
     if not profiles:
         raise TextFileError(1, "found no points; needed: x y z in a line each, and a line with # before each profile")
-    return tuple(FileSection(closed(np.array(points)), line) for line, points in profiles)
+    return SectionFile(tuple(FileSection(closed(np.array(points)), line) for line, points in profiles))
 
 
 def read_meridian(file: Path) -> np.ndarray:
@@ -190,8 +190,8 @@ def _section(rest: Iterator[Line], line: int) -> tuple[int, np.ndarray]:
     if form.lower() not in _FORMS:
         raise TextFileError(line, f"found coordinates '{form}'; allowed: {', '.join(_FORMS).upper()}")
     points = [point_in(text, number) for number, text in (_next(rest, line) for _ in range(_count(rest, line)))]
-    order, found = _FORMS[form.lower()], np.array(points)
-    return line, found if order is None else cartesian(found[:, order])
+    order, coordinates = _FORMS[form.lower()], np.array(points)
+    return line, coordinates if order is None else cartesian(coordinates[:, order])
 
 
 def _channel(lines: list[Line], name: str) -> np.ndarray | None:
@@ -243,9 +243,9 @@ PROFILE_ENDINGS = (".curve", ".crv")
 """Endings of the files of TurboGrid and BladeGen, in small letters."""
 
 _READERS: dict[str, Callable[[str], SectionFile]] = {
-    **dict.fromkeys(PROFILE_ENDINGS, lambda text: SectionFile(read_profiles(text))),
+    **dict.fromkeys(PROFILE_ENDINGS, read_profiles),
     ".geomturbo": read_geomturbo,
-    ".csv": lambda text: SectionFile(read_table(text)),
+    ".csv": read_table,
 }
 _FEWEST_POINTS, _MOST_POINTS = 12, 200_000
 """Numbers of points of a section, and of a file."""
