@@ -176,21 +176,21 @@ CORD1R,23,101,102,1000
 @pytest.mark.parametrize(
     ("system", "coordinates", "position"),
     [
-        (0, (1.0, 2.0, 3.0), (1.0, 2.0, 3.0)),
-        (3, (1.0, 2.0, 3.0), (-2.0, 1.0, 103.0)),
-        ("", (1.0, 2.0, 3.0), (-2.0, 1.0, 103.0)),
-        (5, (2.0, 90.0, 5.0), (-2.0, 10.0, 105.0)),
-        (7, (2.0, 90.0, 90.0), (0.0, 8.0, 100.0)),
-        (8, (2.0, 0.0, 30.0), (0.0, 10.0, 102.0)),
-        (9, (2.0, 0.0, 4.0), (-2.0, 10.0, 104.0)),
-        (10, (1.0, 2.0, 3.0), (-1.0, 8.0, 103.0)),
-        (11, (2.0, 30.0, 0.0), (-1.0, 10.0, 100.0 + np.sqrt(3.0))),
+        ("", "1,2,3", "-2,1,103"),
+        ("0", "1,2,3", "1,2,3"),
+        ("3", "1,2,3", "-2,1,103"),
+        ("5", "2,90,5", "-2,10,105"),
+        ("7", "2,90,90", "0,8,100"),
+        ("8", "2,0,30", "0,10,102"),
+        ("9", "2,0,4", "-2,10,104"),
+        ("10", "1,2,3", "-1,8,103"),
+        ("11", "2,30,0", "-1,10,101.7320508075689"),
     ],
 )
 def test_grid_points_of_nastran_stand_in_the_basic_system(tmp_path, system, coordinates, position):
-    (tmp_path / "mesh.bdf").write_text(f"{SYSTEMS}GRID,1,{system},{','.join(map(str, coordinates))}\n")
+    (tmp_path / "mesh.bdf").write_text(f"{SYSTEMS}GRID,1,{system},{coordinates}\n")
     grid = GridPoints(list(bulk_cards(tmp_path / "mesh.bdf")))
-    np.testing.assert_allclose(grid.positions[grid.labels == 1], [position], atol=1e-12)
+    np.testing.assert_allclose(grid.positions[grid.labels == 1], [np.fromstring(position, sep=",")], atol=1e-12)
 
 
 @pytest.mark.parametrize(

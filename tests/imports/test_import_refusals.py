@@ -13,6 +13,7 @@ from defaults import Orientation
 from import_defaults import MeshSource, Where
 from refusal_tables import pattern_of, refusal_rows
 
+from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.orientation import OURS
 from r37core.fem.write_mesh import write_mesh
@@ -34,14 +35,10 @@ def theirs(settings, tmp_path_factory):
     """A folder with CS50 as another group has it, `cs50.dat`: Abaqus text in mm and its own axes, no sets, *BOUNDARY."""
     folder = tmp_path_factory.mktemp("theirs")
     ours = generate_mesh(settings.blades["CS50"].definition.build(round_edges=True), 600, 1, 8, folder / "ours.msh")
-    mesh = THEIRS.mesh_to_file(ours)
-    lines = ["** another group's", "*NODE, NSET=NALL"]
-    lines += [f"{i}, {x:.7f}, {y:.7f}, {z:.7f}" for i, (x, y, z) in enumerate(mesh.points, start=1)]
-    for name, elements in mesh.blocks.items():
-        lines.append(f"*ELEMENT, TYPE={ELEMENTS[name].abaqus}, ELSET=EALL")
-        lines += [", ".join(map(str, [i, *(nodes + 1)])) for i, nodes in enumerate(elements, start=1)]
-    lines += ["*BOUNDARY", *(f"{node + 1}, 1, 3" for node in mesh.node_set("root"))]
-    (folder / "cs50.dat").write_text("\n".join(lines) + "\n")
+    write_abaqus(THEIRS.mesh_to_file(ours), folder / "cs50.dat", TITANIUM, "another group's")
+    text = re.sub(r"(?s)\*NSET.*?(?=\*MATERIAL)", "", (folder / "cs50.dat").read_text())
+    clamped = "\n".join(f"{node + 1}, 1, 3" for node in ours.node_set("root"))
+    (folder / "cs50.dat").write_text(text.replace("ROOT, 1, 3", clamped))
     return ours, folder
 
 

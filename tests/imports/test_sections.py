@@ -10,6 +10,7 @@ import pytest
 import yaml
 from refusal_tables import pattern_of, refusal_rows
 from section_files import CHANNEL, airfoil, csv_text, curve_text, fan, geomturbo_text, sections_of, stacked, turbine
+from test_imported_blades import MATERIAL
 
 from r37core.blade.profile import BladeShapeError, area_and_centroid
 from r37core.blade.section_changes import SpanLaw
@@ -23,7 +24,6 @@ from r37core.rom.reduce import reduce_blade
 from r37imports.sections.definition import SectionsDefinition
 from r37imports.sections.section_blade import Meridian
 
-MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 ENTRY = {"length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0], "rotation": "negative", "material": MATERIAL}
 SHARES = np.linspace(0.0, 1.0, 9)
 TABLE = Path(__file__).with_name("refusals.txt")
@@ -171,20 +171,11 @@ def test_hub_and_tip_are_cut(settings_with, config_copy):
     blades = settings_with(curve_text(fan()), "profile.curve", others).blades
     shapes = {name: blades[name].definition.build(round_edges=True) for name in ("Fan", *others)}
 
-    def radii(name, span):
-        points = shapes[name].position(SHARES, np.full(9, span), np.linspace(-1.0, 1.0, 9))
-        return np.hypot(points[:, 0], points[:, 1]), points[:, 2]
-
-    r, z = radii("Cone", 1.0)
-    np.testing.assert_allclose(r, 0.435 - 0.05 * z, rtol=1e-9)
-    np.testing.assert_allclose(radii("Cone", 0.0)[0], 0.16, rtol=1e-9)
-    r, z = radii("Channel", 1.0)
-    np.testing.assert_allclose(r, 0.445 - 0.01 * z, rtol=1e-9)
-    np.testing.assert_allclose(radii("Channel", 0.0)[0], 0.16, rtol=1e-9)
-    for name in ("Fan", "Named"):
-        r, z = radii(name, 1.0)
-        np.testing.assert_allclose(r, 0.44 - z / 60.0, rtol=1e-9)
-    np.testing.assert_allclose(radii("Whole", 1.0)[0], 0.45, rtol=1e-9)
+    ends = {"Cone": (0.16, 0.435, -0.05), "Channel": (0.16, 0.445, -0.01), "Whole": (0.15, 0.45, 0.0)}
+    for name, (hub, tip, slope) in (ends | dict.fromkeys(("Fan", "Named"), (0.15, 0.44, -1.0 / 60.0))).items():
+        for span, radius, rise in ((0.0, hub, 0.0), (1.0, tip, slope)):
+            x, y, z = shapes[name].position(SHARES, np.full(9, span), np.linspace(-1.0, 1.0, 9)).T
+            np.testing.assert_allclose(np.hypot(x, y), radius + rise * z, rtol=1e-9, err_msg=name)
 
 
 INF = """!======  CFX-BladeGen Export  ========
