@@ -9,27 +9,17 @@ import pytest
 from r37core.base.packages import PACKAGES
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint
-from r37core.plans.stages import structure_stages
-from r37core.plans.sweep_plan import Sweep
-from r37core.product.extensions import read_settings
 from r37core.product.targets import FIGURES
-from r37studies.requirements.plan import Judged
-from r37studies.run_ups.plan import RunUps
 
 
 @pytest.fixture(scope="module")
 def rules(root):
     """Rule -> names of its code, from the rules' files: of a figure, the step that draws and the module of its function."""
     text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
-    settings = read_settings(root)
-    sweep = Sweep(settings)
-    shared = structure_stages(sweep)
-    shared |= {"run_up": RunUps(sweep).stage(), "looks": Judged(sweep).looks()}
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]
-        steps = re.findall(r'\*\*step\("([\w.]+)"(?:\)|, \*)', block)
-        steps += [shared[rule].step] if "**stage(" in block else []
+        steps = re.findall(r'\*\*(?:step|stage|adding)\(\s*"([\w.]+)"', block)
         needed = re.match(r"use rule step as|(?:(?!\nfor )[\s\S])*SCRIPTS / .step\.py", block) is not None
         assert len(steps) == (needed and rule != "step"), rule
         if steps:

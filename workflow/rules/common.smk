@@ -13,7 +13,7 @@ from r37core.explorer import parts_hash, page_parts
 from r37core.base.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes
-from r37core.plans.stages import Stage, structure_stages
+from r37core.plans.stages import structure_stages
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.targets import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
@@ -46,8 +46,9 @@ drawing = partial(drawing_of, code, operating)
 stages = structure_stages(sweep)
 
 
-def stage(made: Stage):
-    """Parameters of the rule of a stage that Python's single calls do, too (r37core.plans.stages)."""
+def stage(name):
+    """Parameters of the rule of a step that Python's single calls do, too: its docstring says what they are (r37core.plans.stages)."""
+    made = next(made for made in stages.values() if made.step == name)
     return {**step(made.step, *made.modules), **made.params}
 
 

@@ -46,11 +46,11 @@ datasets = {kind: expand(rules.sweep_dataset.output, kind=kind)[0] for kind in s
 more_columns = {table: added(table, sweep) for table in ("summary", "ranking")}
 
 
-def adding(table):
-    """Parameters of a rule whose table gets columns from extensions."""
-    functions = {name: each.function for name, each in more_columns[table].items()}
+def adding(name, table):
+    """Parameters of the rule of a step whose table gets columns from extensions."""
+    functions = {extension: each.function for extension, each in more_columns[table].items()}
     modules = [function.rpartition(".")[0] for function in functions.values()]
-    return {**step(f"r37core.results.steps.{table}", *modules), "added": functions}
+    return {**step(name, *modules), "added": functions}
 
 
 use rule step as summary with:
@@ -64,7 +64,7 @@ use rule step as summary with:
     log:
         "<logs>/summary.log",
     params:
-        **adding("summary"),
+        **adding("r37core.results.steps.summary", "summary"),
         choice=plain(settings.config.interactions),
 
 
@@ -79,7 +79,7 @@ use rule step as ranking with:
     log:
         "<logs>/ranking.log",
     params:
-        **adding("ranking"),
+        **adding("r37core.results.steps.ranking", "ranking"),
         runs=sweep.runs_with("rms"),
         errors=level_errors(settings, sweep.runs_with("rms")),
         operating=operating,

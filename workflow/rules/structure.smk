@@ -13,7 +13,7 @@ use rule step as geometry with:
     # an impossible shape should stop the run before any long work
     priority: 10
     params:
-        **stage(stages["geometry"]),
+        **stage("r37core.blade.steps.geometry"),
 
 
 use rule step as mesh with:
@@ -29,7 +29,7 @@ use rule step as mesh with:
     # a mesh or model that fails should do so before the first simulation
     priority: 2
     params:
-        **stage(stages["mesh"]),
+        **stage("r37core.fem.steps.mesh"),
 
 
 use rule step as reduced_model with:
@@ -45,7 +45,7 @@ use rule step as reduced_model with:
     resources:
         mem_mb=memory_of_model,
     params:
-        **stage(stages["reduced_model"]),
+        **stage("r37core.rom.steps.reduced_model"),
 
 
 # recovered on every node, for who asks for shapes, gauges or files for other programs
@@ -68,7 +68,7 @@ use rule step as campbell_of_blade with:
     log:
         "<logs>/{blade}/campbell.log",
     params:
-        **stage(stages["campbell_of_blade"]),
+        **stage("r37core.results.steps.campbell_of_blade"),
 
 
 use rule step as campbell_of_all with:

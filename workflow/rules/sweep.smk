@@ -10,7 +10,7 @@ use rule step as contact_model with:
         "<logs>/{blade}/contact_model_{tip_line}.log",
     priority: 2
     params:
-        **stage(stages["contact_model"]),
+        **stage("r37core.rom.steps.contact_model"),
 
 
 use rule step as stress_operator with:
@@ -22,7 +22,7 @@ use rule step as stress_operator with:
         "<logs>/{blade}/stress_operator_{tip_line}.log",
     priority: 2
     params:
-        **stage(stages["stress_operator"]),
+        **stage("r37core.stress.steps.stress_operator"),
 
 
 use rule step as prepare_time_integration with:

@@ -14,7 +14,7 @@ use rule step as imported_mesh with:
     # an unsuitable mesh, like an impossible shape, should stop the run before any long work
     priority: 10
     params:
-        **stage(stages["imported_mesh"]),
+        **stage("r37imports.importing.steps.imported_mesh"),
 
 
 use rule step as imported_matrices with:
@@ -30,4 +30,4 @@ use rule step as imported_matrices with:
     resources:
         mem_mb=memory_of_model,
     params:
-        **stage(stages["imported_matrices"]),
+        **stage("r37imports.importing.steps.imported_matrices"),

@@ -15,7 +15,7 @@ use rule step as looks with:
     log:
         "<logs>/{blade}/{scene}/looks.log",
     params:
-        **stage(stages["looks"]),
+        **stage("r37studies.requirements.steps.look"),
 
 
 use rule step as verdict with:

@@ -2,6 +2,7 @@
 from r37studies.run_ups import plan as run_ups_plan
 
 run_ups = run_ups_plan.RunUps(sweep)
+stages |= {"run_up": run_ups.stage()}
 
 
 use rule step as run_up with:
@@ -14,7 +15,7 @@ use rule step as run_up with:
     wildcard_constraints:
         run_up="|".join(settings.section(run_ups_plan.SECTION)) or "none",
     params:
-        **stage(run_ups.stage()),
+        **stage("r37studies.run_ups.steps.record"),
 
 
 use rule step as run_ups_dataset with:
