@@ -1,6 +1,7 @@
 """Requirements: each judged on numbers that are known, its margin, place and certainty, and the tables of a run."""
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,14 +14,12 @@ from integration_cases import DIRECT
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import write_json
 from r37core.base.plain import to_plain
-from r37core.config import ConfigError, command_line_document
+from r37core.config import command_line_document
 from r37core.fem.assembly import mesh_volume
 from r37core.figures.response_curves import draw_response
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
-from r37core.results.datasets import FURTHER_RUNS, overlaid, response_of, with_further_runs
-from r37core.results.interaction_choice import InteractionChoice
-from r37core.results.interactions import summarise
+from r37core.results.datasets import FURTHER_RUNS, response_of, with_further_runs
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.results.regions import judged as judged_region
 from r37core.results.steps import ranking
@@ -166,305 +165,86 @@ def on_mesh_and_step(coarse, fine):
 PEAK = peak(0.8)
 
 
-def case(shows, told, needs=ABOVE, runs=QUIET, **evidence):
-    return pytest.param(needs, runs, evidence, told, id=shows)
+TOLD = dict(row.split(" => ") for row in Path(__file__).with_name("verdicts.txt").read_text().splitlines())
+"""What is told of each case: its verdict, all numbers that are known, and the note, whole."""
+
+
+def case(shows, needs=ABOVE, runs=QUIET, **evidence):
+    return pytest.param(needs, runs, evidence, TOLD.pop(shows), id=shows)
 
 
 CASES = [
     # above yield from 1017.5 to 1082.5 and 1197.5 to 1232.5, half of the way between speeds: 32.5 and 35 inside; three borders
     # inside, each anywhere between two speeds, are a scatter of 2.5
-    case(
-        "lengths inside the range count",
-        "fails"
-        " | value 67.5, lowest 62.5, highest 72.5, from 1197.5, to 1232.5, scatter 2.5"
-        " | the highest value is a lower bound; over 67.5 of 200 rad/s",
-        Requirements(above_yield=60.0),
-        TWO,
-    ),
-    case(
-        "by two of its scatter a length keeps no limit",
-        "cannot tell"
-        " | value 67.5, lowest 62.5, highest 72.5, from 1197.5, to 1232.5, scatter 2.5"
-        " | fails by chance by 0.1 rad/s",
-        Requirements(above_yield=72.4),
-        TWO,
-    ),
-    case(
-        "by more it does",
-        "meets | value 67.5, lowest 62.5, highest 72.5, from 1197.5, to 1232.5, scatter 2.5",
-        Requirements(above_yield=72.6),
-        TWO,
-    ),
-    case(
-        "by two of its scatter a length may keep a limit",
-        "cannot tell"
-        " | value 67.5, lowest 62.5, highest 72.5, from 1197.5, to 1232.5, scatter 2.5"
-        " | meets by chance; the highest value is a lower bound; over 67.5 of 200 rad/s",
-        Requirements(above_yield=62.6),
-        TWO,
-    ),
-    case(
-        "by more it does not",
-        "fails"
-        " | value 67.5, lowest 62.5, highest 72.5, from 1197.5, to 1232.5, scatter 2.5"
-        " | the highest value is a lower bound; over 67.5 of 200 rad/s",
-        Requirements(above_yield=62.4),
-        TWO,
-    ),
-    case(
-        "what lies outside does not count",
-        "meets | value 0, lowest 0, highest 0, scatter 0",
-        ABOVE,
-        response(above(1270.0, 1290.0)),
-    ),
-    case(
-        "a few revolutions are no length",
-        "meets | value 0, lowest 0, highest 0, scatter 0 | above yield in up to 0.42 of the revolutions",
-        ABOVE,
-        response(at(1050.0, 0.42, 0.0)),
-    ),
-    case("nor are they outside", "meets | value 0, lowest 0, highest 0, scatter 0", ABOVE, response(at(1020.0, 0.42, 0.0))),
-    case(
-        "a length across the end",
-        "fails"
-        " | value 32.5, lowest 29.613, highest 35.387, from 1050, to 1082.5, scatter 1.4434"
-        " | the highest value is a lower bound; over 32.5 of 200 rad/s",
-        ABOVE,
-        response(above(1020.0, 1080.0)),
-    ),
+    case("lengths inside the range count", Requirements(above_yield=62.4), TWO),
+    case("by two of its scatter a length keeps no limit", Requirements(above_yield=72.4), TWO),
+    case("by two of its scatter a length may keep a limit", Requirements(above_yield=62.6), TWO),
+    case("what lies outside does not count", ABOVE, response(above(1270.0, 1290.0))),
+    case("a few revolutions are no length", ABOVE, response(at(1050.0, 0.42, 0.0))),
+    case("nor are they outside", ABOVE, response(at(1020.0, 0.42, 0.0))),
+    case("a length across the end", ABOVE, response(above(1020.0, 1080.0))),
     case(
         "a run that diverged is above yield",
-        "fails"
-        " | value 5, lowest 1e-09, highest 15, from 1097.5, to 1102.5, scatter 5"
-        " | 1 of 41 runs diverged, soonest at 1100 rad/s after 3.7 revolutions; the highest value is a lower bound; "
-        "over 5 of 200 rad/s",
         ABOVE,
         diverged_at(response(at(1100.0, np.nan, 0.0), diverged_revolution=at(1100.0, 3.7, np.nan)), 1100.0),
     ),
-    case(
-        "speeds are not run",
-        "cannot tell | speeds are not run from 1050 to 1250 rad/s",
-        ABOVE,
-        response().isel(speed=slice(16, None)),
-    ),
-    case(
-        "stress is not computed",
-        "cannot tell | stress is not computed: add it to the scene's results",
-        ABOVE,
-        QUIET.drop_vars("share_of_revolutions_above_yield"),
-    ),
-    case("wear is not computed", "cannot tell | wear is not computed: add it to the scene's results", LINING, **THICK),
-    case("fatigue is not computed", "cannot tell | fatigue is not computed: add it to the scene's results", GOODMAN),
+    case("speeds are not run", ABOVE, response().isel(speed=slice(16, None))),
+    case("stress is not computed", ABOVE, QUIET.drop_vars("share_of_revolutions_above_yield")),
+    case("wear is not computed", LINING, **THICK),
+    case("fatigue is not computed", GOODMAN),
     # 0.9 mm at 1000 rad/s is outside
-    case("used lining", "meets | value 60, lowest 60, highest 60, from 1200, to 1200", LINING, WORN, **THICK),
+    case("used lining", LINING, WORN, **THICK),
+    case("wear that grows", LINING, growing_at(WORN, 1200.0), **THICK),
+    case("wear that grows far below the limit", LINING, growing_at(response(used_thickness=everywhere(6e-5)), 1200.0), **THICK),
     case(
-        "wear that grows",
-        "cannot tell"
-        " | value 60, lowest 60, highest 60, from 1200, to 1200"
-        " | the motion still grows as the run ends, at 1200 rad/s; wear still grows at the end: a lower bound",
-        LINING,
-        growing_at(WORN, 1200.0),
-        **THICK,
+        "worn through", Requirements(used_lining=1.0), WORN.assign(worn_through_share=("speed", at(1150.0, 0.1, 0.0))), **THICK
     ),
-    case(
-        "wear that grows elsewhere",
-        "cannot tell"
-        " | value 60, lowest 60, highest 60, from 1150, to 1150"
-        " | the motion still grows as the run ends, at 1200 rad/s; the highest value is a lower bound",
-        Requirements(used_lining=0.9),
-        growing_at(response(used_thickness=at(1150.0, 6e-4, 2e-4)), 1200.0),
-        **THICK,
-    ),
-    case(
-        "wear that grows far below the limit",
-        "cannot tell"
-        " | value 6, lowest 6, highest 6, from 1050, to 1050"
-        " | the motion still grows as the run ends, at 1200 rad/s",
-        LINING,
-        growing_at(response(used_thickness=everywhere(6e-5)), 1200.0),
-        **THICK,
-    ),
-    case(
-        "worn through",
-        "fails | from 1150, to 1150 | worn through to the casing",
-        Requirements(used_lining=1.0),
-        WORN.assign(worn_through_share=("speed", at(1150.0, 0.1, 0.0))),
-        **THICK,
-    ),
-    case("no lining", "does not apply | no lining", LINING, WORN),
-    case(
-        "worn, and diverged", "fails | from 1120, to 1120 | 1 of 41 runs diverged", LINING, diverged_at(WORN, 1120.0), **THICK
-    ),
-    case("every run diverged", "fails | from 1050, to 1250 | every run diverged", LINING, diverged_at(WORN, *SPEEDS), **THICK),
-    case("nothing used", "meets | value 0, lowest 0, highest 0", LINING, response(used_thickness=everywhere(0.0)), **THICK),
+    case("no lining", LINING, WORN),
+    case("every run diverged", LINING, diverged_at(WORN, *SPEEDS), **THICK),
+    case("nothing used", LINING, response(used_thickness=everywhere(0.0)), **THICK),
     # 3 at 1020 rad/s is outside
-    case(
-        "share of the Goodman line",
-        "fails"
-        " | value 0.7, lowest 0.7, highest 0.7, from 1120, to 1120"
-        " | the highest value is a lower bound; over 4 of 200 rad/s",
-        Requirements(goodman_share=0.5),
-        TIRED,
-    ),
-    case(
-        "it diverged",
-        "fails | from 1150, to 1150 | 1 of 41 runs diverged",
-        Requirements(goodman_share=5.0),
-        diverged_at(TIRED, 1150.0),
-    ),
-    case("no strengths", "cannot tell | the material has no strengths", GOODMAN, TIRED.assign(fatigue_strength=np.inf)),
+    case("share of the Goodman line", Requirements(goodman_share=0.5), TIRED),
+    case("it diverged", Requirements(goodman_share=5.0), diverged_at(TIRED, 1150.0)),
+    case("no strengths", GOODMAN, TIRED.assign(fatigue_strength=np.inf)),
     # from 2 at 1045 to 0.2 at 1050 rad/s, which is 1.1 where the range begins; no run lies inside
     case(
         "between runs a share is a straight line",
-        "fails"
-        " | value 1.1, lowest 1.1, highest 1.1, from 1047.5, to 1047.5"
-        " | the highest value is a lower bound; over 0.278 of 1.5 rad/s",
         GOODMAN,
         fatigued(at(1045.0, 2.0, 0.2)),
         operating=OperatingRange(1047.5, 1049.0),
     ),
     case(
         "up to the next run nothing is known beside one that diverged",
-        "fails | from 1049.9, to 1049.9 | the run next to the range diverged",
         GOODMAN,
         diverged_at(fatigued(everywhere(0.2)), 1045.0),
         operating=OperatingRange(1049.9, 1060.0),
     ),
-    case(
-        "speeds far apart",
-        "cannot tell"
-        " | value 0, lowest 0, highest 0, scatter 0"
-        " | speeds lie up to 10 rad/s apart, and an interaction may be 5 wide",
-        ABOVE,
-        SCARCE,
-    ),
-    case(
-        "speeds far apart where nothing touches",
-        "meets | value 0, lowest 0, highest 0, scatter 0 | the tip touches nothing, which needs no further runs",
-        ABOVE,
-        untouched(SCARCE),
-    ),
-    case(
-        "speeds far apart where something touches",
-        "cannot tell"
-        " | value 0, lowest 0, highest 0, scatter 0"
-        " | speeds lie up to 10 rad/s apart, and an interaction may be 5 wide",
-        ABOVE,
-        SCARCE.assign(share_of_time_in_contact=0.3 + 0.0 * SCARCE["status"]),
-    ),
-    case(
-        "speeds far apart that fail",
-        "fails"
-        " | value 30, lowest 21.835, highest 38.165, from 1095, to 1125, scatter 4.0825"
-        " | the highest value is a lower bound; over 30 of 200 rad/s",
-        ABOVE,
-        LOUD.isel(speed=slice(None, None, 2)),
-    ),
-    case(
-        "all that was tried agrees",
-        "meets | value 0, lowest 0, highest 0, scatter 0, margin_worst_motion 0",
-        looks={REST: QUIET, UP: QUIET},
-    ),
-    case(
-        "another motion fails",
-        "cannot tell | value 0, lowest 0, highest 25, scatter 0, margin_worst_motion -25 | fails carried up by 25 rad/s",
-        looks={REST: QUIET, UP: LOUD},
-    ),
-    case(
-        "further runs stand in place of the sweep's",
-        "meets | value 0, lowest 0, highest 0, scatter 0",
-        ABOVE,
-        LOUD,
-        looks={REST: QUIET},
-    ),
-    case(
-        "all motions fail",
-        "fails"
-        " | value 25, lowest 20.918, highest 29.082, from 1097.5, to 1122.5, scatter 2.0412, margin_worst_motion -25"
-        " | over 25 of 200 rad/s",
-        looks={REST: LOUD, UP: LOUD},
-    ),
-    case(
-        "one run with another friction, over those from rest",
-        "cannot tell"
-        " | value 0, lowest 0, highest 5, scatter 2.5"
-        " | fails with 1% less friction by 5 rad/s; fails by chance by 5 rad/s",
-        looks={REST: QUIET, LESS_FRICTION: LOUD.sel(speed=[1110.0])},
-    ),
-    case(
-        "a quieter motion takes nothing from one that fails",
-        "fails"
-        " | value 25, lowest 0, highest 29.082, from 1097.5, to 1122.5, scatter 2.0412, margin_worst_motion -25"
-        " | over 25 of 200 rad/s",
-        looks={REST: LOUD, UP: QUIET},
-    ),
+    case("speeds far apart", ABOVE, SCARCE),
+    case("speeds far apart where nothing touches", ABOVE, untouched(SCARCE)),
+    case("speeds far apart that fail", ABOVE, LOUD.isel(speed=slice(None, None, 2))),
+    case("another motion fails", looks={REST: QUIET, UP: LOUD}),
+    case("further runs stand in place of the sweep's", ABOVE, LOUD, looks={REST: QUIET}),
+    case("one run with another friction, over those from rest", looks={REST: QUIET, LESS_FRICTION: LOUD.sel(speed=[1110.0])}),
+    case("a quieter motion takes nothing from one that fails", looks={REST: LOUD, UP: QUIET}),
     case(
         "the same motion with another friction does",
-        "cannot tell"
-        " | value 5, lowest 0, highest 16.18, from 1107.5, to 1112.5, scatter 5.5902"
-        " | meets with 1% less friction; over 5 of 200 rad/s",
         looks={REST: response(above(1110.0, 1110.0)), LESS_FRICTION: QUIET.sel(speed=[1110.0])},
     ),
     case(
-        "another damping keeps what fails clearly",
-        "cannot tell"
-        " | value 25, lowest 0, highest 29.082, from 1097.5, to 1122.5, scatter 2.0412"
-        " | meets with highest damping; the highest value is a lower bound; over 25 of 200 rad/s",
-        ABOVE,
-        LOUD,
-        looks={HIGHEST_DAMPING: QUIET.sel(speed=slice(1100.0, 1120.0))},
+        "another damping keeps what fails clearly", ABOVE, LOUD, looks={HIGHEST_DAMPING: QUIET.sel(speed=slice(1100.0, 1120.0))}
     ),
     case(
         "another damping fails at some speeds, too",
-        "fails"
-        " | value 25, lowest 10, highest 29.082, from 1097.5, to 1122.5, scatter 2.0412"
-        " | the highest value is a lower bound; over 25 of 200 rad/s",
         ABOVE,
         LOUD,
         looks={HIGHEST_DAMPING: QUIET.sel(speed=slice(1100.0, 1110.0))},
     ),
-    case(
-        "another damping fails",
-        "cannot tell | value 0, lowest 0, highest 25, scatter 0 | fails with highest damping by 25 rad/s",
-        looks={REST: QUIET, HIGHEST_DAMPING: LOUD},
-    ),
-    case(
-        "nothing was looked at",
-        "cannot tell | value 0, lowest 0, highest 0, scatter 0 | no further runs of a rotor",
-        not_looked="no further runs of a rotor",
-    ),
+    case("nothing was looked at", not_looked="no further runs of a rotor"),
     # 0.98 of yield at one speed: with 5% more it is above, and the length that of one speed
-    case("a small error of mesh and step", "meets | value 0, lowest 0, highest 0, scatter 0", ABOVE, CLOSE, error=0.01),
-    case(
-        "a large error of mesh and step",
-        "cannot tell | value 0, lowest 0, highest 5, scatter 0 | fails with 5% more by 5 rad/s",
-        ABOVE,
-        CLOSE,
-        error=0.05,
-    ),
-    case(
-        "above yield with a small error",
-        "fails"
-        " | value 5, lowest 1e-09, highest 15, from 1147.5, to 1152.5, scatter 5"
-        " | the highest value is a lower bound; over 5 of 200 rad/s",
-        ABOVE,
-        PAST,
-        error=0.05,
-    ),
-    case(
-        "above yield with a large error",
-        "cannot tell"
-        " | value 5, lowest 0, highest 15, from 1147.5, to 1152.5, scatter 5"
-        " | meets with 10% less; the highest value is a lower bound; over 5 of 200 rad/s",
-        ABOVE,
-        PAST,
-        error=0.1,
-    ),
+    case("a large error of mesh and step", ABOVE, CLOSE, error=0.05),
+    case("above yield with a large error", ABOVE, PAST, error=0.1),
     case(
         "all that was tried has the error",
-        "cannot tell"
-        " | value 40, lowest 0, highest 93.45, from 1050, to 1050, scatter 24.5"
-        " | fails with 1% less friction and 5% more by 3.45 %",
         Requirements(used_lining=0.9),
         error=0.05,
         looks={
@@ -473,142 +253,40 @@ CASES = [
         },
         **THICK,
     ),
-    case(
-        "an error of the mesh",
-        "meets | value 0.8, lowest 0.7619, highest 0.84, from 1150, to 1150, scatter 0.018856",
-        GOODMAN,
-        PEAK,
-        **on_mesh_and_step(peak(0.84), peak(0.8)),
-    ),
-    case(
-        "an error of the step",
-        "meets | value 0.8, lowest 0.76, highest 0.84, from 1150, to 1150, scatter 0.018856",
-        GOODMAN,
-        PEAK,
-        **on_mesh_and_step(peak(0.8), peak(0.76)),
-    ),
-    case(
-        "a large error of the mesh",
-        "meets | value 0.8, lowest 0.62087, highest 0.99, from 1150, to 1150, scatter 0.089567",
-        GOODMAN,
-        PEAK,
-        **on_mesh_and_step(peak(0.99), peak(0.8)),
-    ),
-    case(
-        "large errors of mesh and step",
-        "cannot tell"
-        " | value 0.8, lowest 0.59323, highest 1.0068, from 1150, to 1150, scatter 0.10339"
-        " | fails by chance by 0.00677",
-        GOODMAN,
-        PEAK,
-        **on_mesh_and_step(peak(0.99), peak(0.7)),
-    ),
+    case("an error of the mesh", GOODMAN, PEAK, **on_mesh_and_step(peak(0.84), peak(0.8))),
+    case("an error of the step", GOODMAN, PEAK, **on_mesh_and_step(peak(0.8), peak(0.76))),
+    case("large errors of mesh and step", GOODMAN, PEAK, **on_mesh_and_step(peak(0.99), peak(0.7))),
     case(
         "the error is that of speeds that ended both ways",
-        "cannot tell"
-        " | value 0.8, lowest 0.7619, highest 0.84, from 1150, to 1150, scatter 0"
-        " | fails with a mesh of half the nodes",
         GOODMAN,
         PEAK,
         **on_mesh_and_step(diverged_at(peak(0.84), 1145.0), PEAK),
     ),
-    case(
-        "where none did it is that of the level",
-        "cannot tell"
-        " | value 0.8, lowest 0.69565, highest 0.92, from 1150, to 1150, scatter 0"
-        " | fails with a mesh of half the nodes; "
-        "the level's error was not measured: snakemake tradeoff measures it, fidelity.yaml has it as measured.error",
-        GOODMAN,
-        PEAK,
-        **on_mesh_and_step(diverged_at(PEAK, *SPEEDS), PEAK),
-    ),
-    case(
-        "a length ends with the range",
-        "meets | value 197.5, lowest 194.61, highest 200, from 1052.5, to 1250, scatter 1.4434",
-        Requirements(above_yield=300.0),
-        response(above(1055.0, 1300.0)),
-    ),
-    case(
-        "a peak between speeds",
-        "cannot tell | value 0.9, lowest 0.9, highest 0.9, from 1150, to 1150"
-        " | a peak between speeds, or one that drifts on, may come beyond the limit; the highest value is a lower bound",
-        GOODMAN,
-        looks={REST: fatigued(at(1150.0, 0.9, 0.2))},
-    ),
+    case("where none did it is that of the level", GOODMAN, PEAK, **on_mesh_and_step(diverged_at(PEAK, *SPEEDS), PEAK)),
+    case("a length ends with the range", Requirements(above_yield=300.0), response(above(1055.0, 1300.0))),
+    case("a peak between speeds", GOODMAN, looks={REST: fatigued(at(1150.0, 0.9, 0.2))}),
     case(
         "a drift up to the limit",
-        "cannot tell | value 0.8, lowest 0.8, highest 1, from 1050, to 1050"
-        " | a peak between speeds, or one that drifts on, may come beyond the limit; the highest value is a lower bound",
         GOODMAN,
         looks={REST: fatigued(everywhere(0.8)).assign(stress_drift=("speed", at(1150.0, 0.25, 0.0)))},
     ),
-    case(
-        "a peak at the limit",
-        "meets | value 1, lowest 1, highest 1, from 1150, to 1150",
-        GOODMAN,
-        looks={REST: fatigued(at(1150.0, 1.0, 0.95))},
-    ),
+    case("a peak at the limit", GOODMAN, looks={REST: fatigued(at(1150.0, 1.0, 0.95))}),
     case(
         "where nothing is stressed nothing differs",
-        "cannot tell | value 0.75, lowest 0.75, highest 0.75, from 1150, to 1150, scatter 0"
-        " | a peak between speeds, or one that drifts on, may come beyond the limit; the highest value is a lower bound",
         GOODMAN,
         looks=dict.fromkeys((HALF_STEP, COARSER_MESH), fatigued(everywhere(0.0)).sel(speed=[1100.0]))
         | {REST: fatigued(at(1150.0, 0.75, 0.0))},
         error=np.nan,
     ),
-    case(
-        "an error that was not measured",
-        "cannot tell"
-        " | value 0.8, lowest 0.69565, highest 0.92, from 1150, to 1150"
-        " | the level's error was not measured: snakemake tradeoff measures it, fidelity.yaml has it as measured.error",
-        GOODMAN,
-        PEAK,
-        error=np.nan,
-    ),
-    case(
-        "what fails clearly has no need of it",
-        "fails"
-        " | value 0.8, lowest 0.69565, highest 0.92, from 1150, to 1150"
-        " | the highest value is a lower bound; over 40 of 200 rad/s",
-        Requirements(goodman_share=0.6),
-        PEAK,
-        error=np.nan,
-    ),
-    case(
-        "what fails less clearly has",
-        "cannot tell"
-        " | value 0.8, lowest 0.69565, highest 0.92, from 1150, to 1150"
-        " | meets with 15% less; the highest value is a lower bound; over 10 of 200 rad/s",
-        Requirements(goodman_share=0.75),
-        PEAK,
-        error=np.nan,
-    ),
-    case(
-        "a sharp peak may be higher",
-        "meets | value 0.5, lowest 0.48544, highest 0.515, from 1150, to 1150 | the highest value is a lower bound",
-        GOODMAN,
-        SHARP,
-        error=0.03,
-    ),
-    case("a broad one is known", "meets | value 0.5, lowest 0.5, highest 0.5, from 1150, to 1150", GOODMAN, BROAD),
-    case(
-        "a drift",
-        "meets | value 0.5, lowest 0.5, highest 0.525, from 1150, to 1150 | the highest value is a lower bound",
-        GOODMAN,
-        BROAD.assign(stress_drift=("speed", at(1150.0, 0.05, 0.0))),
-    ),
-    case(
-        "a large drift",
-        "cannot tell"
-        " | value 0.5, lowest 0.5, highest 1.1, from 1150, to 1150"
-        " | fails as it drifts on by 0.1; the highest value is a lower bound",
-        GOODMAN,
-        BROAD.assign(stress_drift=("speed", at(1150.0, 1.2, 0.0))),
-    ),
+    case("an error that was not measured", GOODMAN, PEAK, error=np.nan),
+    case("what fails clearly has no need of it", Requirements(goodman_share=0.6), PEAK, error=np.nan),
+    case("what fails less clearly has", Requirements(goodman_share=0.75), PEAK, error=np.nan),
+    case("a sharp peak may be higher", GOODMAN, SHARP, error=0.03),
+    case("a broad one is known", GOODMAN, BROAD),
+    case("a drift", GOODMAN, BROAD.assign(stress_drift=("speed", at(1150.0, 0.05, 0.0)))),
+    case("a large drift", GOODMAN, BROAD.assign(stress_drift=("speed", at(1150.0, 1.2, 0.0)))),
     case(
         "another requirement fails, and this one is far below",
-        "meets | value 0.3, lowest 0.3, highest 0.3, from 1050, to 1050",
         GOODMAN,
         fatigued(everywhere(0.3)),
         not_looked="few further runs",
@@ -616,170 +294,72 @@ CASES = [
     ),
     case(
         "another requirement fails, and this one is near",
-        "cannot tell | value 0.4, lowest 0.4, highest 0.4, from 1050, to 1050 | few further runs",
         GOODMAN,
         fatigued(everywhere(0.4)),
         not_looked="few further runs",
         fails_elsewhere=True,
     ),
-    case(
-        "a motion grows near the limit",
-        "cannot tell | value 0, lowest 0, highest 0, scatter 0 | the motion still grows as the run ends, at 1150 rad/s",
-        ABOVE,
-        growing_at(NEARLY, 1100.0, 1150.0),
-    ),
-    case("a motion grows far from it", "meets | value 0, lowest 0, highest 0, scatter 0", ABOVE, growing_at(NEARLY, 1100.0)),
-    case(
-        "a motion grows outside",
-        "meets | value 0, lowest 0, highest 0, scatter 0",
-        ABOVE,
-        growing_at(stressed(at(1020.0, 0.9, 0.5)), 1020.0),
-    ),
-    case(
-        "growth comes to the limit",
-        "cannot tell"
-        " | value 5, lowest 1e-09, highest 15, from 1147.5, to 1152.5, scatter 5"
-        " | the motion still grows as the run ends, at 1100 rad/s",
-        Requirements(above_yield=20.0),
-        growing_at(GROWN, 1100.0),
-    ),
-    case(
-        "growth above yield counts already",
-        "meets | value 5, lowest 1e-09, highest 15, from 1147.5, to 1152.5, scatter 5",
-        Requirements(above_yield=20.0),
-        growing_at(GROWN, 1150.0),
-    ),
+    case("a motion grows near the limit", ABOVE, growing_at(NEARLY, 1100.0, 1150.0)),
+    case("a motion grows far from it", ABOVE, growing_at(NEARLY, 1100.0)),
+    case("growth comes to the limit", Requirements(above_yield=20.0), growing_at(GROWN, 1100.0)),
+    case("growth above yield counts already", Requirements(above_yield=20.0), growing_at(GROWN, 1150.0)),
     case(
         "growth of a motion that is carried up",
-        "cannot tell"
-        " | value 5, lowest 1e-09, highest 15, from 1147.5, to 1152.5, scatter 5, margin_worst_motion 15"
-        " | the motion still grows as the run ends, at 1100 rad/s, carried up; "
-        "a peak between speeds, or one that drifts on, may come beyond the limit; the highest value is a lower bound",
         Requirements(above_yield=20.0),
         GROWN,
         looks={REST: GROWN, UP: growing_at(GROWN, 1100.0)},
     ),
     case(
         "the worst of several motions",
-        "cannot tell"
-        " | value 0.2, lowest 0.2, highest 0.7, from 1050, to 1050, margin_worst_motion -0.2"
-        " | fails carried up by 0.1; fails carried down by 0.2",
         Requirements(goodman_share=0.5),
         looks={look: fatigued(everywhere(share)) for look, share in ((REST, 0.2), (UP, 0.6), (DOWN, 0.7))},
     ),
-    case(
-        "stress of vibration alone",
-        "cannot tell"
-        " | value 0, lowest 0, highest 0, scatter 0"
-        " | stress of vibration alone: add static_stress to the scene's results",
-        ABOVE,
-        response(static_stress=0.0),
-    ),
-    case(
-        "stress of vibration alone fails",
-        "fails"
-        " | value 25, lowest 20.918, highest 29.082, from 1097.5, to 1122.5, scatter 2.0412"
-        " | stress of vibration alone: add static_stress to the scene's results; the highest value is a lower bound; "
-        "over 25 of 200 rad/s",
-        ABOVE,
-        LOUD.assign(static_stress=0.0),
-    ),
-    case(
-        "contact on points",
-        "cannot tell"
-        " | value 0, lowest 0, highest 0, scatter 0"
-        " | contact acts on points, whose motion changes with the mesh: structure.boundary.contact: patches",
-        point_contact=True,
-    ),
-    case(
-        "no contact",
-        "meets | value 0, lowest 0, highest 0, scatter 0 | the tip touches nothing, which needs no further runs",
-        ABOVE,
-        untouched(QUIET),
-        point_contact=True,
-        not_looked="no further runs of a rotor",
-    ),
-    case(
-        "stress before a motion settles",
-        "cannot tell | value 0, lowest 0, highest 5, scatter 0 | fails before it settles by 5 rad/s",
-        looks={REST: response(max_von_mises_of_run=at(1150.0, 1.2, 0.5), yield_stress=1.0)},
-    ),
-    case(
-        "a share of revolutions is lacking", "cannot tell | no share_of_revolutions_above_yield at 1150 rad/s", ABOVE, LACKING
-    ),
-    case("a used thickness is lacking", "cannot tell | no used_thickness at 1150 rad/s", LINING, LACKING, **THICK),
-    case("a share of the Goodman line is lacking", "cannot tell | no goodman_share at 1150 rad/s", GOODMAN, LACKING),
+    case("stress of vibration alone", ABOVE, response(static_stress=0.0)),
+    case("stress of vibration alone fails", ABOVE, LOUD.assign(static_stress=0.0)),
+    case("contact on points", point_contact=True),
+    case("no contact", ABOVE, untouched(QUIET), point_contact=True, not_looked="no further runs of a rotor"),
+    case("stress before a motion settles", looks={REST: response(max_von_mises_of_run=at(1150.0, 1.2, 0.5), yield_stress=1.0)}),
+    case("a share of revolutions is lacking", ABOVE, LACKING),
+    case("a share of the Goodman line is lacking", GOODMAN, LACKING),
     # next to scenes with a lining a bare casing's motions have its numbers, too
     case(
         "motions over a part of the range",
-        "cannot tell"
-        " | value 0, lowest 0, highest 25, scatter 0, margin_worst_motion -25"
-        " | fails in the worst motion by 25 rad/s",
         motions=MOTIONS.expand_dims(motion=["rest", "up"]).assign(differ=1.0 + 0.0 * MOTIONS["status"]),
     ),
-    case("clearance", "fails | value 0.2", Requirements(clearance=3e-4), clearance=2e-4),
+    case("clearance", Requirements(clearance=3e-4), clearance=2e-4),
     # next to a scene that grows
     case(
-        "clearance of a scene that grows",
-        "meets | value 0.25, from 1250, to 1250",
-        Requirements(clearance=2.4e-4),
-        response(clearance=(("speed", "contact_node"), ROOM)),
+        "clearance of a scene that grows", Requirements(clearance=2.4e-4), response(clearance=(("speed", "contact_node"), ROOM))
     ),
     case(
         "clearance next to a scene that grows",
-        "meets | value 0.4",
         Requirements(clearance=3e-4),
         response(clearance=(("speed", "contact_node"), np.nan * ROOM)),
         clearance=4e-4,
     ),
-    case("mass", "fails | value 0.101", Requirements(mass=0.1), mass=0.101),
-    case("mass that is not known", "cannot tell | matrices do not say it", Requirements(mass=0.1)),
-    case("small damage", "meets | value 5e-05", Requirements(miner_sum=1e-4), miner_sum=5e-5),
-    case("large damage", "fails | value 0.0002", Requirements(miner_sum=1e-4), miner_sum=2e-4),
-    case(
-        "damage at once",
-        "fails | a run-up diverged, or breaks the blade at once",
-        Requirements(miner_sum=1e-4),
-        miner_sum=np.inf,
-    ),
-    case(
-        "damage that is not known",
-        "cannot tell | no run-up has it: run_ups, fatigue and stress of the scene, the material's fatigue_exponent",
-        Requirements(miner_sum=1e-4),
-    ),
-    case("a crossing inside", "fails | value 0, from 1200, to 1200", CROSSING),
-    case("a crossing beside the range", "fails | value 3.8462, from 1300, to 1300", CROSSING, campbell=campbell(1300.0)),
-    case("a crossing far off", "meets | value 5.303, from 1320, to 1320", CROSSING, campbell=campbell(1320.0)),
+    case("mass", Requirements(mass=0.1), mass=0.101),
+    case("mass that is not known", Requirements(mass=0.1)),
+    case("small damage", Requirements(miner_sum=1e-4), miner_sum=5e-5),
+    case("damage at once", Requirements(miner_sum=1e-4), miner_sum=np.inf),
+    case("damage that is not known", Requirements(miner_sum=1e-4)),
+    case("a crossing inside", CROSSING),
+    case("a crossing beside the range", CROSSING, campbell=campbell(1300.0)),
     # with dwells the rest of the range is passed, and does not count
     case(
         "a crossing beside a dwell",
-        "meets | value 7.5, from 1200, to 1200",
         CROSSING,
         operating=OperatingRange(1050.0, 1250.0, dwell=(OperatingDwell(1100.0, 1110.0, 0.5),)),
     ),
-    case("no crossing", "meets | value 100", Requirements(campbell_margins=(CampbellMargin("1B", (2,), 0.05),))),
-    case(
-        "a crossing of a combination",
-        "fails | value 3.8462, from 1300, to 1300",
-        Requirements(campbell_margins=(CampbellMargin("1T-1B", (6,), 0.05),)),
-    ),
+    case("no crossing", Requirements(campbell_margins=(CampbellMargin("1B", (2,), 0.05),))),
+    case("a crossing of a combination", Requirements(campbell_margins=(CampbellMargin("1T-1B", (6,), 0.05),))),
     case(
         "members and motions",
-        "cannot tell"
-        " | value 0, lowest 0, highest 25, scatter 0, margin_worst_motion -25, members 4, share_of_members 0.75"
-        " | fails in the worst motion by 25 rad/s",
         members=MEMBERS,
         motions=MEMBERS.rename(member="motion").assign(differ=("speed", everywhere(1.0))),
     ),
-    case(
-        "members keep fatigue",
-        "meets | value 0.5, lowest 0.5, highest 0.5, from 1050, to 1050, members 2, share_of_members 0.5",
-        Requirements(goodman_share=0.8),
-        TIRED_MEMBERS.isel(member=0),
-        members=TIRED_MEMBERS,
-    ),
+    case("members keep fatigue", Requirements(goodman_share=0.8), TIRED_MEMBERS.isel(member=0), members=TIRED_MEMBERS),
 ]
-
+assert not TOLD
 
 NUMBERS = ("value", "value_lowest", "value_highest", "from_rad_s", "to_rad_s", "scatter")
 NUMBERS += ("margin_worst_motion", "members", "share_of_members")
@@ -787,19 +367,14 @@ NUMBERS += ("margin_worst_motion", "members", "share_of_members")
 
 @pytest.mark.parametrize(("needs", "runs", "evidence", "told"), CASES)
 def test_verdict(needs, runs, evidence, told):
-    """The verdict, all numbers that are known, and the note, whole."""
     row = one(needs, runs, **evidence)
     known = [
         f"{name.removeprefix('value_').removesuffix('_rad_s')} {row[name]:.5g}" for name in NUMBERS if row[name] == row[name]
     ]
     assert " | ".join(filter(None, [row["verdict"], ", ".join(known), row["note"]])) == told
     below = row["limit"] - row["value"]
+    assert np.nan_to_num(row["further_runs"]) == sum(runs.sizes["speed"] for runs in evidence.get("looks", {}).values())
     assert row["margin"] == pytest.approx(-below if needs.clearance or needs.campbell_margins else below, nan_ok=True)
-
-
-@pytest.mark.parametrize("motions", [(), (UP, DOWN)])
-def test_further_runs_are_counted(motions):
-    assert one(ABOVE, looks=dict.fromkeys((REST, *motions), QUIET))["further_runs"] == (1 + len(motions)) * len(SPEEDS)
 
 
 def test_runs_and_motions_over_parts_of_the_speeds_are_joined():
@@ -807,8 +382,7 @@ def test_runs_and_motions_over_parts_of_the_speeds_are_joined():
     runs = response(above(1000.0, 1300.0)).assign_coords(speed_rpm=("speed", 9.55 * SPEEDS))
     joined = extended(runs, response().isel(speed=slice(2, -2)))
     assert joined["speed"].values.tolist() == SPEEDS.tolist() and list(joined.coords) == ["speed"]
-    above_all = overlaid(response(), response(above(1000.0, 1300.0)).sel(speed=[1100.0]))
-    assert above_all["share_of_revolutions_above_yield"].sum() == 1.0 and above_all.sizes["speed"] == len(SPEEDS)
+    assert joined["share_of_revolutions_above_yield"].sum() == 4.0
 
 
 def test_chance_in_a_bare_casing_moves_a_length():
@@ -816,28 +390,28 @@ def test_chance_in_a_bare_casing_moves_a_length():
     shares = np.where((SPEEDS >= 1100.0) & (SPEEDS <= 1200.0), np.random.default_rng(0).uniform(0.4, 0.6, len(SPEEDS)), 0.01)
     bare = response(shares, lined=0.0)
     found = one(Requirements(above_yield=1000.0), bare)
-    value, scatter = found["value"], found["scatter"]
+    scatter = found["scatter"]
     assert scatter > 1.0 and found["verdict"] == MEETS
-    for limit, expected in ((-2.1, FAILS), (-1.9, UNKNOWN), (1.9, UNKNOWN), (2.1, MEETS)):
-        assert one(Requirements(above_yield=value + limit * scatter), bare)["verdict"] == expected, limit
     assert one(Requirements(above_yield=1000.0), response(shares))["scatter"] < 1.5 * scatter
 
 
 @pytest.mark.parametrize(
     ("needs", "nearest"),
     [
-        (ABOVE, 0.9),
+        (ABOVE, 1.5),
         (Requirements(goodman_share=0.5), 0.8),
+        (Requirements(used_lining=0.25, goodman_share=0.8), 0.8),
         (Requirements(used_lining=0.25), 0.8),
-        (Requirements(above_yield=0.0, goodman_share=0.5), 0.9),
     ],
 )
 def test_how_near_runs_come_to_a_limit(needs, nearest):
     shares = {"goodman_share": ("speed", everywhere(0.4)), "used_thickness": ("speed", everywhere(1e-3))}
-    runs = diverged_at(stressed(at(1100.0, 0.9, 0.5)).assign(shares), 1000.0)
+    runs = diverged_at(stressed(at(1100.0, 1.5, 0.5)).assign(shares), 1000.0)
     near = nearness(needs, Evidence(runs, operating=FLOWN, thickness=5e-3))
     assert (near[0], near[1:].max()) == (np.inf, pytest.approx(nearest))
-    assert near[1:].min() == pytest.approx(0.5 if needs == ABOVE else 0.8)
+    close = closeness(needs, Evidence(runs, operating=FLOWN, thickness=5e-3))
+    assert close[0] == 0.0
+    np.testing.assert_allclose(close[1:], np.minimum(near, 1.0 / near)[1:])
 
 
 def test_a_tip_may_touch_where_no_run_says_that_it_does_not():
@@ -862,12 +436,6 @@ def test_the_worst_of_motions_diverged_where_one_did():
     status = [[RunStatus.DIVERGED, RunStatus.NOT_RUN], [RunStatus.NOT_RUN, RunStatus.COMPLETED]]
     motions = xr.Dataset({"status": (("motion", "speed"), np.array(status, int))}, {"speed": [1.0, 2.0]})
     assert worst_of(motions)["status"].values.tolist() == [RunStatus.DIVERGED, RunStatus.COMPLETED]
-
-
-def test_the_runs_closest_to_a_limit():
-    median = np.linspace(0.1, 3.0, len(SPEEDS))
-    close = closeness(ABOVE, Evidence(stressed(median), operating=FLOWN))
-    np.testing.assert_allclose(close, np.minimum(median, 1.0 / median))
 
 
 @pytest.fixture
@@ -895,6 +463,10 @@ def test_the_verdict_of_a_run(judged, tmp_path):
         f"({AT_LEAST}; over 25 of 200 rad/s, 20.9 to at least 29.1 rad/s in all that was tried, scatter 2 rad/s)"
     )
     assert lines[2].strip() == "Ref in below meets"
+    # without requirements the verdict is that of a run before
+    write_table(verdict[:1], tmp_path / "operating.csv")
+    write_json({"config": {"requirements": {"campbell_margins": []}}}, tmp_path / "configuration.json")
+    assert closing(tmp_path) == "1 line on what lies in operation"
 
 
 ROW = {"scene": "s", "requirement": "mass", "verdict": MEETS, "value": 100.0, "value_lowest": 100.0, "value_highest": 100.0}
@@ -956,18 +528,10 @@ def test_only_gaps_that_reach_into_the_operating_range_count(first, last, gap):
     assert Evidence(runs, campbell=campbell(), operating=OperatingRange(first, last)).gap == gap
 
 
-def test_a_verdict_of_a_run_before_is_not_told(judged, tmp_path):
-    write_table(judged[0], tmp_path / "verdict.csv")
-    write_table(pd.DataFrame({"blade": ["Ref"]}), tmp_path / "operating.csv")
-    write_json({"config": {"requirements": {"campbell_margins": []}}}, tmp_path / "configuration.json")
-    assert closing(tmp_path) == "1 line on what lies in operation"
-
-
 def test_the_volume_of_a_mesh():
     """A box whose inner nodes are moved: elements of any shape fill it."""
-    for element in ("wedge15", "tetra10", "hexahedron20"):
-        mesh = box_mesh(0.4, 0.2, 0.3, (2, 2, 2), warp=0.1, element=element)
-        assert mesh_volume(mesh.blocks, mesh.points) == pytest.approx(0.4 * 0.2 * 0.3, rel=1e-12)
+    mesh = box_mesh(0.4, 0.2, 0.3, (2, 2, 2), warp=0.1, element="wedge15")
+    assert mesh_volume(mesh.blocks, mesh.points) == pytest.approx(0.4 * 0.2 * 0.3, rel=1e-12)
 
 
 def test_what_lies_in_the_operating_range(judged):
@@ -1033,9 +597,6 @@ def test_tables_and_figure_have_the_further_runs_that_the_verdict_has(lined, tmp
 
     for name in ("failed", "other"):
         xr.testing.assert_identical(response_of(datasets, "Ref", name), response_of(plain, "Ref", name))
-    at_root = [response_of(some, "Ref", "looked", "root") for some in (datasets, plain)]
-    xr.testing.assert_identical(*at_root)
-
     response = response_of(datasets, "Ref", "looked")
     assert response["speed"].values.tolist() == [*SPEEDS[:10:5], *SPEEDS[10:51], *SPEEDS[55::5]]
     xr.testing.assert_equal(response["rms_normal"].sel(speed=further["speed"]), further["rms_normal"])
@@ -1044,14 +605,6 @@ def test_tables_and_figure_have_the_further_runs_that_the_verdict_has(lined, tmp
     ranking(files, SimpleNamespace(table=tmp_path / "ranking.csv"), SimpleNamespace(**params))
     lengths = read_table(tmp_path / "ranking.csv").set_index("scene")["length_most_revolutions_operating_rad_s"]
     assert lengths["looked"] == judgement["value"] and lengths["other"] != lengths["looked"]
-    with_campbell |= datasets
-    write_table(summarise(with_campbell, InteractionChoice()), tmp_path / "summary.csv")
-    interactions = read_table(tmp_path / "summary.csv")
-    (row,) = interactions[(interactions["scene"] == "looked") & (interactions["peak_speed_rad_s"] > 1050.0)].to_dict("records")
-    assert row["most_revolutions_from_rad_s"] == judgement["from_rad_s"] < 1110.0
-    table = operating_table([("Ref", "looked")], FLOWN, with_campbell, interactions)
-    (above_yield,) = table[table["kind"] == "above_yield"]["length_rad_s"]
-    assert above_yield == judgement["value"]
     one_blade = {name: judged_region(dataset.sel(blade="Ref")) for name, dataset in datasets.items()}
     figure = draw_response("Ref", None, **one_blade)
     for axes in (figure.axes[0], figure.axes[2]):
@@ -1073,31 +626,6 @@ def with_requirements(config_copy):
 
 
 RANGE = {"idle_rad_s": 1100.0, "redline_rad_s": 1300.0}
-
-
-def margin(mode, orders, percent=5, operating=RANGE):
-    """Sections with a margin of a mode's crossings with these engine orders."""
-    of_mode = {"mode": mode, "engine_orders": orders, "at_least_percent": percent}
-    return {"operating": operating, "requirements": {"campbell_margins": [of_mode]}}
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"requirements": {"mass_at_most_kg": 1.0}}, "requirements without operating"),
-        (margin("3B", [4]), "'3B'; allowed: 1B, 1T, 2B, 4"),
-        (margin("1T-1T", [4]), r"'1T-1T'; allowed: .*, or two of them as 7-5 or 5\+7"),
-        (margin("1B+1T+2B", [4]), "found '1B"),
-        (margin("1B", [99]), "99; allowed: at most campbell.highest_engine_order"),
-        ({"operating": RANGE, "requirements": {"mass_at_most_kg": -1.0}}, "-1"),
-        (margin("1B", []), "found none"),
-        (margin("1B", [4, 4]), "4 of 1B twice"),
-        (margin("1T", [8], 3, RANGE | {"redline_rad_s": 1990.0}), "crossings up to 2051.55 rad/s count"),
-    ],
-)
-def test_requirement_refusals(with_requirements, changes, message):
-    with pytest.raises(ConfigError, match=message):
-        with_requirements(**changes)
 
 
 YIELD = {"above_yield_at_most_rad_s": 0.0}

@@ -14,7 +14,6 @@ from workflow_runs import overlay
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import Named
-from r37core.config import ConfigError
 from r37core.product.extensions import read_settings
 from r37core.rom.rotation import BucklingError
 from r37core.stress.operator import StressOperator
@@ -227,25 +226,6 @@ def searched_settings(folder, variables, changes=""):
     content["search"] |= yaml.safe_load(f"{{ variables: {{ {variables} }}, {BOTH_SCENES} {changes} }}")
     file.write_text(yaml.safe_dump(content, sort_keys=False))
     return read_settings(folder)
-
-
-@pytest.mark.parametrize(
-    ("variables", "message"),
-    [
-        ("scene.lining.thicknes_m: [1, 2]", "variables.scene.lining.thicknes_m: .*none of the scenes abradable, direct has; .*"
-         "mean scene.lining.thickness_m"),
-        ("scene.lining.thickness_m: [-1, 0.001]", "variables.scene.lining.thickness_m: scene 'abradable': found -1"),
-        ("scene.damping_ratio: [0.001, 0.002]", "scene.damping_ratio with 0.0005 in 'abradable', 0.001 in 'direct'; allowed: "
-         "scenes of the search that start at the same value"),
-        ("scene.casing: [1, 2], scene.casing.clearance_m: [1, 2]", "scene.casing.clearance_m beside scene.casing"),
-        ("casing.clearance_m: [1, 2]", "unknown key casing.clearance_m; .* in a search as scene.casing.clearance_m"),
-    ],
-)  # fmt: skip
-def test_what_no_scene_has_or_can_have_is_refused(config_copy, variables, message):
-    overlay(config_copy, "scenes.yaml", "direct: { damping_ratio: 0.001 }")
-    with pytest.raises(ConfigError, match=rf"^config/config.yaml:\d+: .*{message}") as refusal:
-        searched_settings(config_copy, variables)
-    assert "\n" not in str(refusal.value)
 
 
 def runs_of(settings, name, values):
