@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from box_mesh import TITANIUM, plate, write_deck, write_with_gmsh
 from defaults import Orientation
-from import_defaults import MeshSource, Where
+from import_defaults import MeshSource, Where, assert_same_sets, refused
 from pydantic import TypeAdapter
 from scipy import constants
 
@@ -34,7 +34,7 @@ from r37imports.importing.import_mesh import _READERS, import_mesh
 from r37imports.importing.meshio_reader import quietly, read_nastran, read_with_meshio
 from r37imports.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, mesh_files
 from r37imports.placement import warn_of_size
-from r37imports.refusal import ImportRefused, MeshWarning
+from r37imports.refusal import MeshWarning
 
 
 def source(file, **changes):
@@ -63,8 +63,7 @@ def test_our_own_mesh_comes_back(files, steel, name):
     again, quality = import_mesh(source(name), folder)
     assert difference(assemble(again, steel), matrices) < 1e-12
     assert quality.min() == pytest.approx(mesh_quality(mesh).min(), rel=1e-6)
-    for line in ("root", "tip", "tip_pressure_edge", "tip_suction_edge"):
-        np.testing.assert_array_equal(again.node_set(line), mesh.node_set(line))
+    assert_same_sets(again, mesh, "root", "tip", "tip_pressure_edge", "tip_suction_edge")
     edge = mesh.node_set("tip_pressure_edge")
     # nodes near the ends of an edge are near the camber line too; they count by their place on the edge
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(again.points[edge], axis=0), axis=1))])
@@ -111,7 +110,7 @@ def test_archives_of_ansys(element, tmp_path):
 def test_archives_of_ansys_need_the_extra_package(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "meshlane", None)
     (tmp_path / "mesh.cdb").write_text("NBLOCK")
-    with pytest.raises(ImportRefused, match=r"mesh\.cdb: Ansys archives need .* pip install -e '\.\[ansys\]'"):
+    with refused(r"mesh\.cdb: Ansys archives need .* pip install -e '\.\[ansys\]'"):
         import_mesh(source("mesh.cdb"), tmp_path)
 
 
@@ -205,7 +204,7 @@ def test_grid_points_of_nastran_stand_in_the_basic_system(tmp_path, system, coor
 )
 def test_coordinate_systems_that_have_no_axes(tmp_path, system, message):
     (tmp_path / "mesh.bdf").write_text(f"{SYSTEMS}GRID,1,{system},0.\n")
-    with pytest.raises(ImportRefused, match=message):
+    with refused(message):
         GridPoints(list(bulk_cards(tmp_path / "mesh.bdf")))
 
 
@@ -289,11 +288,11 @@ def test_decks_as_other_programs_write_them(tmp_path):
     members = ", ".join(map(str, np.flatnonzero(on_tip.sum(axis=1) == 8) + 1))
     faces = f"*ELSET, ELSET=LAST\n{members}\n*SURFACE, NAME=CROWN\nLAST, S4\n*MATERIAL"
     mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", faces)), tip=Where(("crown",))))
-    np.testing.assert_array_equal(mesh.node_set("tip"), tip.node_set("tip"))
+    assert_same_sets(mesh, tip, "tip")
     skin = [", ".join(map(str, [9000 + i, *(face + 1)])) for i, face in enumerate(tip_faces(tip))]
     shells = "*ELEMENT, TYPE=S8R, ELSET=SKIN\n" + "\n".join(skin) + "\n*NSET, NSET=CAP, ELSET=skin\n*MATERIAL"
     mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", shells)), tip=Where(("cap",))))
-    np.testing.assert_array_equal(mesh.node_set("tip"), tip.node_set("tip"))
+    assert_same_sets(mesh, tip, "tip")
 
 
 def tip_faces(mesh):
@@ -331,7 +330,7 @@ def second_part(text):
     ],
 )
 def test_unsuitable_decks_are_refused(tmp_path, change, message):
-    with pytest.raises(ImportRefused, match=rf"mesh\.inp: .*({message})"):
+    with refused(rf"mesh\.inp: .*({message})"):
         import_mesh(source(deck(tmp_path, change)))
 
 
@@ -374,7 +373,7 @@ def some_twice(mesh):
 )
 def test_bad_elements_are_refused(tmp_path, change, message):
     write_mesh(change(plate()), tmp_path / "mesh.vtu")
-    with pytest.raises(ImportRefused, match=message):
+    with refused(message):
         import_mesh(source("mesh.vtu"), tmp_path)
 
 
@@ -414,11 +413,11 @@ def test_units_are_those_of_si_and_every_suffix_has_a_reader():
 def test_an_included_file_is_one_of_the_mesh(tmp_path):
     deck(tmp_path, lambda text: text.replace("*MATERIAL", "*Include, Input=parts/more.inp\n*MATERIAL"))
     (tmp_path / "parts").mkdir()
-    with pytest.raises(ImportRefused, match=r"there is no file parts/more\.inp"):
+    with refused(r"there is no file parts/more\.inp"):
         mesh_files("mesh.inp", tmp_path)
     (tmp_path / "parts/more.inp").write_text("*NSET, NSET=EXTRA\n1, 2\n")
     assert [file.name for file in mesh_files("mesh.inp", tmp_path)] == ["mesh.inp", "more.inp"]
-    with pytest.raises(ImportRefused, match=r"found no set 'MISSING'; (.|\n)*file: .*EXTRA"):
+    with refused(r"found no set 'MISSING'; (.|\n)*file: .*EXTRA"):
         import_mesh(source("mesh.inp", root=Where(("MISSING",))), tmp_path)
 
 
@@ -426,7 +425,7 @@ def test_files_that_cannot_be_read(tmp_path):
     texts = {"med": "no HDF5", "msh": "$MeshFormat\n9 0 8\n", "bdf": "GRID,x\n", "vtu": "<VTKFile", "inp": "*NODE\nx"}
     for suffix, text in texts.items():
         (tmp_path / f"a.{suffix}").write_text(text)
-        with pytest.raises(ImportRefused, match=rf"a\.{suffix}"):
+        with refused(rf"a\.{suffix}"):
             import_mesh(source(f"a.{suffix}"), tmp_path)
 
 
@@ -435,7 +434,7 @@ def test_a_reader_that_exits_does_not_escape(tmp_path):
         print("Error: I give up")
         sys.exit(1)
 
-    with pytest.raises(ImportRefused, match="the reader gave up: Error: I give up"):
+    with refused("the reader gave up: Error: I give up"):
         quietly(read, tmp_path)
 
 

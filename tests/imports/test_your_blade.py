@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
+from import_defaults import assert_same_sets
 from stubbed_runs import copy_stubbed, edit
 from workflow_runs import copy_finished, copy_project, overlay, planned_outputs, snakemake
 
@@ -60,8 +61,7 @@ def test_the_page_shows_the_refusal_as_it_is(root, drawn):
     lines = yaml.safe_load("\n".join(line for line in shown.splitlines() if line.startswith("  ")))
     again, _ = import_mesh(MeshEntry.model_validate(wrong | lines).source(drawn), drawn)
     ours, _ = import_mesh(MeshEntry.model_validate(entry).source(drawn), drawn)
-    for name in ("root", "tip", "tip_pressure_edge"):
-        np.testing.assert_array_equal(again.node_set(name), ours.node_set(name))
+    assert_same_sets(again, ours, "root", "tip", "tip_pressure_edge")
 
 
 @pytest.mark.slow

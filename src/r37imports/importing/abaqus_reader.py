@@ -27,12 +27,6 @@ CLAMPED = "BOUNDARY"
 _TYPES = {element.abaqus: name for name, element in ELEMENTS.items()}
 # keywords that make or move nodes and elements
 _GENERATORS = ("SYSTEM", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY")
-# faces of Abaqus by the corners that they join: *SURFACE, TYPE=ELEMENT
-_FACE_CORNERS = {
-    4: ((0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3)),
-    6: ((0, 1, 2), (3, 4, 5), (0, 1, 3, 4), (1, 2, 4, 5), (0, 2, 3, 5)),
-    8: ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 4, 5), (1, 2, 5, 6), (2, 3, 6, 7), (0, 3, 4, 7)),
-}
 
 
 @dataclass
@@ -236,12 +230,11 @@ def _face_nodes(surface: str, nodes: list[int], face: str) -> list[int]:
     if not face:
         return nodes
     element = next(e for e in ELEMENTS.values() if len(e.nodes) == len(nodes))
-    faces = {f"S{number}": set(corners) for number, corners in enumerate(_FACE_CORNERS[element.corners], start=1)}
+    # numbered as in the table of elements
+    faces = {f"S{number}": places for number, places in enumerate(element.faces, start=1)}
     if face not in faces:
         raise ImportRefused(f"surface {surface}: found the face {face}; allowed: {', '.join(faces)}")
-    corners = faces[face]
-    middle = [node for edge, node in element.edges.items() if edge <= corners]
-    return [nodes[i] for i in (*corners, *middle)]
+    return [nodes[i] for i in faces[face]]
 
 
 def _add(sets: dict[str, list[int]], name: str | None, members: list[int]) -> None:

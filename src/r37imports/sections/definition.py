@@ -57,9 +57,9 @@ class SectionsDefinition(Shape):
         """Distance of the first section from the last (m)."""
         return self.curve(len(self.sections) - 1).radius - self.curve(0).radius
 
-    def _ends(self) -> tuple[Meridian | None, ...]:
+    def _ends(self) -> list[Meridian | None]:
         """What cuts the blade at hub and tip."""
-        return tuple(Meridian(points) if points else None for points in (self.hub, self.tip))
+        return [Meridian(points) if points else None for points in (self.hub, self.tip)]
 
     def places(self) -> np.ndarray:
         """Fraction of the height from hub to tip at which each section lies; BladeShapeError unless these rise."""
@@ -118,7 +118,8 @@ class SectionsDefinition(Shape):
                 placement = sweep_and_lean(places, np.array(self.stacking))
             elif self.chordwise_sweep_angle is not None:
                 placement = chordwise_sweep(self.curves, self.chordwise_sweep_angle)
-            return SectionBlade(self.curves, places, placement, *self._ends(), round_edges, self.pressure_forward)
+            hub, tip = self._ends()
+            return SectionBlade(self.curves, places, placement, hub, tip, round_edges, self.pressure_forward)
         except BladeShapeError as error:
             raise BladeShapeError(f"blade {self.name}: {error}") from None
 
