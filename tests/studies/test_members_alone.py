@@ -7,8 +7,9 @@ from r37core.base.io import Named
 from r37core.config import command_line_document
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
+from r37core.sweep.recipe import structure_attributes
 from r37studies.tolerances import steps
-from r37studies.tolerances.plan import Tolerances
+from r37studies.tolerances.members import Tolerances
 
 
 def test_more_members_run_alone(root, tmp_path, sweep, run_speeds):
@@ -22,7 +23,11 @@ def test_more_members_run_alone(root, tmp_path, sweep, run_speeds):
         changes = {"blades": ["Ref"], "scenes": ["abradable"], "speeds": [900, 1000]}
         changes |= {"tolerances": {"members": members, "of_scenes": friction}}
         plan = Tolerances(settings := read_settings(root, command_line_document(changes)))
-        params = {"sweeps": plan.sweeps(where), "speeds": plan.speeds(where), "structure": plan.structure(where)}
+        params = {
+            "sweeps": plan.sweeps(where),
+            "speeds": plan.speeds(where),
+            "structure": structure_attributes(settings, "Ref"),
+        }
         params |= {"about": plan.about(where), "provenance": Sweep(settings).provenance(where), "cores": 1}
         output.members.parent.mkdir(parents=True, exist_ok=True)
         steps.run(files, output, Named(**params))

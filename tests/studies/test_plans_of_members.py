@@ -12,8 +12,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
 from r37studies.run_ups.plan import RunUps
-from r37studies.tolerances.members import members_of
-from r37studies.tolerances.plan import Tolerances
+from r37studies.tolerances.members import Tolerances
 from r37studies.trials import estimate
 
 
@@ -49,7 +48,7 @@ def members(root):
 def test_a_member_is_run_like_the_nominal_blade(members):
     """By the same plan: from the nominal models where its blade is the nominal one, with what its ranges are read off."""
     plan, settings = members()
-    drawn, sweeps, about = members_of(settings).all["Ref", "abradable"], sweeps_of(plan), plan.about(REF)
+    drawn, sweeps, about = plan.all["Ref", "abradable"], sweeps_of(plan), plan.about(REF)
     assert list(sweeps) == ["0", "1"] and {member.values[1] for member in drawn.values()} == {100.0, 102.0}
     task = json.loads(Sweep(settings).task(of(**vars(REF), speed="900")))
     for name, sweep in sweeps.items():

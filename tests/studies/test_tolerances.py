@@ -28,10 +28,10 @@ from r37core.time_integration.status import RunStatus
 from r37studies.member_values import sobol_points
 from r37studies.tolerances.dataset import tolerances_dataset
 from r37studies.tolerances.figures import draw_tolerances
-from r37studies.tolerances.members import members_of
+from r37studies.tolerances.members import Tolerances
 from r37studies.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
-from r37studies.tolerances.ranges import ranged_summary, read_ranges
-from r37studies.tolerances.table import _matched, range_table, ranges
+from r37studies.tolerances.ranges import COLUMNS, ranged_summary
+from r37studies.tolerances.table import ranges
 
 
 def test_more_members_change_none_that_are_there():
@@ -56,75 +56,66 @@ def test_values_of_a_distribution(tolerance, shares, expected):
     assert [tolerance.value(2.0, share) for share in shares] == pytest.approx(expected, rel=1e-9)
 
 
-def drawn(function, numbers, members, seed=0):
-    """Values of a plain sample and what a function makes of them."""
-    values = np.array(list(sobol_points(numbers, members, seed).values()))
-    return values, function(*values.T)
+def places(found):
+    return np.array([found["rank_place_low"], found["rank_place_high"]])
 
 
-def jumping(x, y, z):
-    """Falls with x, in jumps, and rises with y; z is not in it."""
-    return np.exp(np.floor(-8.0 * x) + 2.0 * y)
+def jumping(members):
+    """Values of a sample and a measure that falls with the first, in jumps, and rises with the second, not with the third."""
+    values = np.array(list(sobol_points(3, members, 0).values()))
+    return values, np.exp(np.floor(-8.0 * values[:, 0]) + 2.0 * values[:, 1])
 
 
 def test_the_ranking_is_of_ranks_and_has_signs():
-    found = ranking(*drawn(jumping, 3, 128))
-    assert found.coefficient[0] < -0.9 and 0.1 < found.coefficient[1] < 0.3
-    assert found.known.tolist() == [True, True, False]
-    low, high = found.places
-    np.testing.assert_array_equal(low, [1.0, 2.0, np.nan])
-    np.testing.assert_array_equal(high, [1.0, 2.0, np.nan])
-    assert found.members == 128 and 0.9 < found.explained < 1.0
+    values, measure = jumping(128)
+    found = ranking(values, measure)
+    assert found["rank_coefficient"][0] < -0.9 and 0.1 < found["rank_coefficient"][1] < 0.3
+    np.testing.assert_array_equal(places(found), [[1.0, 2.0, np.nan]] * 2)
+    assert found["rank_members"] == 128 and 0.9 < found["rank_explained"] < 1.0
     # any monotonous change of the measure is the same to it
-    values, measure = drawn(jumping, 3, 128)
-    np.testing.assert_array_equal(ranking(values, np.log(measure)).coefficient, found.coefficient)
+    xr.testing.assert_identical(ranking(values, np.log(measure)), found)
 
 
 def test_what_few_members_do_not_tell_apart_shares_its_places():
     """Whatever the direction of a number."""
-
-    def alike(x, y, z):
-        return x + 0.95 * y + 1e-3 * z
-
-    few, many = (ranking(*drawn(alike, 3, members)) for members in (16, 1024))
-    np.testing.assert_array_equal(np.array(few.places)[:, :2], [[1.0, 1.0], [2.0, 2.0]])
-    assert not few.known[2]
-    np.testing.assert_array_equal(np.array(many.places)[:, :2], [[1.0, 2.0], [1.0, 2.0]])
+    for members, last in ((16, [[1.0, 1.0], [2.0, 2.0]]), (1024, [[1.0, 2.0], [1.0, 2.0]])):
+        values = np.array(list(sobol_points(3, members, 0).values()))
+        found = places(ranking(values, values @ [1.0, 0.95, 1e-3]))
+        np.testing.assert_array_equal(found[:, :2], last)
+        assert members == 1024 or np.isnan(found[0, 2])
     random = np.random.default_rng(0)
     for _ in range(50):
         values = random.random((24, 3)) @ [[1.0, 0.8, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 1.0]]
         measure = values @ [1.0, 0.5, 0.5] + random.random(24)
-        np.testing.assert_array_equal(ranking(values * [1.0, -1.0, 1.0], measure).above, ranking(values, measure).above)
+        np.testing.assert_array_equal(places(ranking(values * [1.0, -1.0, 1.0], measure)), places(ranking(values, measure)))
 
 
 def test_intervals_of_a_ranking_miss_as_seldom_as_said():
-    def noisy(x, y, z, noise):
-        return 2.0 * x + y + noise
-
-    random, missed, wrong = np.random.default_rng(0), [], []
+    random, size, missed, wrong = np.random.default_rng(0), [2.0, 1.0, 0.0, 1.0], [], []
     whole = random.random((100_000, 4))
-    truth = ranking(whole[:, :3], noisy(*whole.T)).coefficient
+    truth = ranking(whole[:, :3], whole @ size)["rank_coefficient"]
     for _ in range(400):
         values = random.random((24, 4))
-        found = ranking(values[:, :3], noisy(*values.T))
-        missed.append((found.low > truth) | (found.high < truth))
-        wrong.append(found.above[1, 0] | found.above[2, 0] | found.above[2, 1])
+        found = ranking(values[:, :3], values @ size)
+        missed.append((found["rank_coefficient_low"] > truth) | (found["rank_coefficient_high"] < truth))
+        first, last = places(found)
+        wrong.append((first > [1, 2, 3]).any() or (last < [1, 2, 3]).any())
     assert 0.02 < np.mean(missed) < 0.08
     assert np.mean(wrong) < 0.03
 
 
 def test_a_ranking_leaves_out_what_does_not_vary_and_members_without_the_measure():
     """And too few members rank nothing."""
-    values, measure = drawn(jumping, 3, 64)
-    beside = np.column_stack([values, np.full(64, np.nan), np.full(64, 0.15)])
-    np.testing.assert_array_equal(ranking(beside, measure).coefficient[:3], ranking(values, measure).coefficient)
-    assert np.isnan(ranking(beside, measure).coefficient[3:]).all()
-    for nothing in (ranking(values, np.zeros(64)), *(ranking(values[:few], measure[:few]) for few in (2, 4))):
-        assert np.isnan(nothing.coefficient).all() and np.isnan(nothing.places).all() and not nothing.above.any()
-    gone = measure.copy()
-    gone[:5] = np.nan
-    assert ranking(values, gone).members == 59
-    np.testing.assert_array_equal(ranking(values, gone).coefficient, ranking(values[5:], measure[5:]).coefficient)
+    values, measure = jumping(64)
+    found = ranking(values, measure)
+    beside = ranking(np.column_stack([values, np.full(64, np.nan), np.full(64, 0.15)]), measure)
+    xr.testing.assert_identical(beside.isel(number=slice(3)), found)
+    nothing = [beside.isel(number=slice(3, None)), ranking(values, np.zeros(64))]
+    for one in (*nothing, *(ranking(values[:few], measure[:few]) for few in (2, 4))):
+        assert np.isnan(one["rank_coefficient"]).all() and np.isnan(places(one)).all()
+    measure[:5] = np.nan
+    assert ranking(values, measure)["rank_members"] == 59
+    xr.testing.assert_identical(ranking(values, measure), ranking(values[5:], measure[5:]))
 
 
 def settings_of(root, content, **more):
@@ -135,8 +126,8 @@ def settings_of(root, content, **more):
 def test_members_have_the_values_of_the_sample(root):
     numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "lining.elastic_modulus_pa": {"values": [1.0e10, 3.0e10]}}
     settings = settings_of(root, {"members": 8, "blades": ["Ref"], "of_scenes": numbers})
-    assert members_of(settings).pairs == [("Ref", "abradable"), ("Ref", "direct")]
-    lined, direct = (members_of(settings).all["Ref", scene] for scene in ("abradable", "direct"))
+    assert settings.made(Tolerances).pairs == [("Ref", "abradable"), ("Ref", "direct")]
+    lined, direct = (settings.made(Tolerances).all["Ref", scene] for scene in ("abradable", "direct"))
     assert list(lined) == [str(row) for row in range(8)]
     for name, member in lined.items():
         assert member.values == (member.scene.friction.coefficient, member.scene.lining.elastic_modulus)
@@ -155,7 +146,7 @@ def test_members_have_the_joint_values_of_a_file(root, tmp_path):
     lines = "".join(f"{friction},{damping}\n" for friction, damping in rows)
     file.write_text(f"scene.friction.coefficient,scene.damping_ratio\n{lines}")
     settings = settings_of(root, {"drawn_file": str(file), "members": 4, "blades": ["Ref"]})
-    members = members_of(settings).all["Ref", "direct"].values()
+    members = settings.made(Tolerances).all["Ref", "direct"].values()
     assert [member.values for member in members] == [rows[place] for place in (0, 1, 2, 3)]
     assert [member.scene.friction.coefficient for member in members] == [0.1, 0.1, 0.2, 0.3]
     with pytest.raises(ConfigError, match=r"drawn_file: found 5 rows in .*; allowed: 8 or more"):
@@ -173,7 +164,7 @@ def test_a_blade_spreads_in_material_thickness_and_place(root):
     settings = settings_of(root, {"members": 4, "of_blades": numbers})
     for name in ("Ref", "S100"):
         nominal = settings.blades[name]
-        for member in members_of(settings).all[name, "direct"].values():
+        for member in settings.made(Tolerances).all[name, "direct"].values():
             young, thickness, sweep, lean = member.values
             assert member.blade.material == replace(nominal.material, youngs_modulus=young)
             hub, tip = member.blade.definition.profiles[0], member.blade.definition.profiles[-1]
@@ -191,9 +182,9 @@ def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
     page = (root / "docs/tolerances.md").read_text()
     asked = yaml.safe_load(re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1])
     settings = settings_of(root, asked["tolerances"], scenes=asked["scenes"])
-    assert len(members_of(settings).all["S100", "material_abradable"]) == 32
+    assert len(settings.made(Tolerances).all["S100", "material_abradable"]) == 32
     with open(root / "config/tolerances.yaml") as stream:
-        assert len(members_of(settings_of(root, {}, **yaml.safe_load(stream))).all["Ref", "material_abradable"]) == 32
+        assert len(settings_of(root, {}, **yaml.safe_load(stream)).made(Tolerances).all["Ref", "material_abradable"]) == 32
 
 
 @pytest.mark.parametrize(
@@ -253,10 +244,10 @@ def test_what_cannot_be_is_refused_before_the_sweep(root, content, message):
 
 def test_a_blade_or_scene_without_any_of_the_numbers_has_no_members(root):
     lining = {"lining.thickness_m": {"uniform_percent": 5.0}}
-    assert members_of(settings_of(root, {"of_scenes": lining})).pairs == [("Ref", "abradable"), ("S100", "abradable")]
+    assert settings_of(root, {"of_scenes": lining}).made(Tolerances).pairs == [("Ref", "abradable"), ("S100", "abradable")]
     sweep = {"sweep_percent": {"uniform": 5.0}}
-    assert members_of(settings_of(root, {"of_blades": sweep})).pairs == [("S100", "abradable"), ("S100", "direct")]
-    assert members_of(settings_of(root, {})).pairs == []
+    assert settings_of(root, {"of_blades": sweep}).made(Tolerances).pairs == [("S100", "abradable"), ("S100", "direct")]
+    assert settings_of(root, {}).made(Tolerances).pairs == []
 
 
 def test_a_table_of_sweep_and_lean_stays_within_its_bounds(root):
@@ -429,7 +420,8 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path, blade):
     """Whatever the blade is called; without a nominal interaction there is nothing beside which they could stand."""
     nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
     rows = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4), (990.0, 0.004, 6))}, InteractionChoice())
-    range_table([(blade, "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
+    table = pd.DataFrame([{"blade": blade, "scene": "lined", **row} for row in rows], columns=COLUMNS)
+    table.to_csv(tmp_path / "tolerances.csv", index=False)
     summary = pd.DataFrame([{"blade": name, "scene": "lined", **one} for name in (blade, "L50") for one in nominal])
     joined = ranged_summary(summary.astype({"engine_order": "Int64"}), tmp_path / "tolerances.csv")
     assert len(joined) == len(summary)
@@ -443,7 +435,7 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path, blade):
 def test_a_damaged_table_is_named(tmp_path, text):
     (tmp_path / "tolerances.csv").write_text(text)
     with pytest.raises(InputFileError, match=r"tolerances\.csv: cannot be read"):
-        read_ranges(tmp_path / "tolerances.csv")
+        ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), tmp_path / "tolerances.csv")
 
 
 def test_a_response_that_is_none_is_named(tmp_path):
@@ -452,8 +444,8 @@ def test_a_response_that_is_none_is_named(tmp_path):
         tolerances_dataset([(("Ref", "lined", other[0][1]), other[1])], NUMBERS)
 
 
-def shares_of_members(nominal, members, choice):
-    return [len(match.members) / len(members) for match in _matched(nominal, members, choice)[: len(nominal)]]
+def shares_of_members(*given):
+    return [row["share_of_members"] for row in ranges(*given) if np.isfinite(row["peak_speed_rad_s"])]
 
 
 def test_each_nominal_interaction_has_its_share_and_members_go_to_the_nearest():

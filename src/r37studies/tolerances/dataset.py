@@ -110,7 +110,9 @@ def _pair_dataset(pair: tuple[str, str], members: Sequence[xr.Dataset]) -> xr.Da
         sample[f"{name}_quantile"] = quantiles.assign_attrs(about(units, f"quantiles over the members: {meaning}"))
     if "max_von_mises_ever" in sample:
         sample = sample.assign(_chances(ratio_to_yield(sample) > 1.0))
-    sample = sample.assign(_rankings(sample))
+    values = sample["value"].transpose("member", "number").values
+    rankings = [ranking(values, sample[name].values) for name in INDEXED]
+    sample = sample.assign(xr.concat(rankings, xr.Variable("measure", list(INDEXED)), combine_attrs="override"))
     return sample.expand_dims(blade=[pair[0]], scene=[pair[1]])
 
 
@@ -125,26 +127,3 @@ def _chances(above: xr.DataArray) -> dict[str, xr.DataArray]:
         f"{name}_low": count.copy(data=low).assign_attrs(about("1", f"lower {ends}")),
         f"{name}_high": count.copy(data=high).assign_attrs(about("1", f"upper {ends}")),
     }
-
-
-def _rankings(sample: xr.Dataset) -> dict[str, xr.DataArray]:
-    """Rank coefficients of INDEXED and the places that they give, from the sample alone."""
-    values = sample["value"].transpose("member", "number").values
-    rankings = [ranking(values, sample[name].values) for name in INDEXED]
-    first, last = zip(*(measure.places for measure in rankings), strict=True)
-    sure, by = f"{CONFIDENCE:.0%} sure", "rank coefficients, of numbers that have one beyond zero"
-    return {
-        "rank_coefficient": _index([measure.coefficient for measure in rankings], "standardized rank coefficient"),
-        "rank_coefficient_low": _index([measure.low for measure in rankings], f"lower end of the rank coefficient, {sure}"),
-        "rank_coefficient_high": _index([measure.high for measure in rankings], f"upper end of the rank coefficient, {sure}"),
-        "rank_place_low": _index(first, f"first place that the number may have by {by}"),
-        "rank_place_high": _index(last, f"last place that the number may have by {by}"),
-        "rank_explained": _index([measure.explained for measure in rankings], "share of the ranks' variance that they explain"),
-        "rank_members": _index([measure.members for measure in rankings], "members that the coefficients are made of"),
-    }
-
-
-def _index(rows: Sequence[np.ndarray | float], meaning: str) -> xr.DataArray:
-    """A number, or one for each of the numbers under tolerances, of each of INDEXED."""
-    values = np.array(rows)
-    return xr.DataArray(values, {"measure": list(INDEXED)}, ("measure", "number")[: values.ndim], attrs=about("1", meaning))

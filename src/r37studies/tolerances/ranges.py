@@ -24,22 +24,17 @@ COLUMNS = [*KEY, "members", *names(MEMBERS_SHOWING), *_WITH_RANGES]
 """Columns of the table: those without an end are of the nominal run."""
 
 
-def read_ranges(file: Path | str) -> pd.DataFrame:
-    """The table of ranges. Raises InputFileError where it cannot be read."""
+def ranged_summary(summary: pd.DataFrame, file: Path | str) -> pd.DataFrame:
+    """summary.csv with the share of members and the ranges in the file of each interaction; empty for those without members.
+
+    Raises InputFileError where the file, of the columns COLUMNS, cannot be read.
+    """
     table = read_table(file)
     with readable(file):
-        if list(table.columns) != COLUMNS:
-            raise ValueError(f"its columns are not {', '.join(COLUMNS)}")
         kinds = {"engine_order": "Int64", "robust": bool, **dict.fromkeys(_WITH_RANGES, float)}
         # what no crossing explains has no mode
-        return table.fillna({"mode": ""}).astype(kinds)
-
-
-def ranged_summary(summary: pd.DataFrame, file: Path | str) -> pd.DataFrame:
-    """summary.csv with the share of members and the ranges in the file of each interaction; empty for those without members."""
-    table = read_ranges(file)
-    ranges = [name for column in RANGED for name in column.range_names]
-    beside = table[table["peak_speed_rad_s"].notna()][[*KEY, "peak_speed_rad_s", *names(MEMBERS_SHOWING), *ranges]]
+        table = table[COLUMNS].fillna({"mode": ""}).astype(kinds)
     # an empty table has columns of no type
     summary = summary.astype({"peak_speed_rad_s": float, "engine_order": "Int64"})
-    return summary.merge(beside, "left", [*KEY, "peak_speed_rad_s"])
+    nominal = table[table["peak_speed_rad_s"].notna()].drop(columns=["members", *_WITH_RANGE[1:]])
+    return summary.merge(nominal, "left", [*KEY, "peak_speed_rad_s"])

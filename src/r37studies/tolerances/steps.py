@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import xarray as xr
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset, write_groups
@@ -22,7 +23,8 @@ from r37core.sweep.forks import forked_results
 from r37core.sweep.recipe import STRUCTURES
 
 from .dataset import CAMPBELL_GROUP, RESPONSE, tolerances_dataset
-from .table import range_table, ranges
+from .ranges import COLUMNS
+from .table import ranges
 
 
 def run(input: Any, output: Any, params: Any) -> None:
@@ -69,5 +71,5 @@ def table(input: Any, output: Any, params: Any) -> None:
             members[name] = find_interactions(response, read_dataset(file, group=CAMPBELL_GROUP.format(name)), choice)
             speeds = float(response["speed"][0]), float(response["speed"][-1])
         interactions = find_interactions(read_judged(nominal[0]), read_dataset(nominal[1]), choice)
-        rows += [(blade, scene, row) for row in ranges(interactions, members, choice, speeds)]
-    write_table(range_table(rows), output.table)
+        rows += [{"blade": blade, "scene": scene, **row} for row in ranges(interactions, members, choice, speeds)]
+    write_table(pd.DataFrame(rows, columns=COLUMNS).astype({"engine_order": "Int64"}), output.table)

@@ -1,11 +1,9 @@
 """tolerances.csv: interactions with the range of their numbers over the members; and the line that a run ends with."""
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from r37core.base.dataset_file import open_dataset
 from r37core.results.closing import counted
@@ -15,25 +13,17 @@ from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
 
 from .plan import DATASET, TABLE
-from .ranges import COLUMNS, RANGED
+from .ranges import RANGED
 
 ROBUST = 0.5
 """Share of the members that show an interaction, below which it is not robust."""
 
 
-@dataclass
-class _Found:
-    """One interaction, as the nominal run has it, if it does, and as members do, by name."""
+_NOMINAL = ""
+"""Name of the nominal run among those that show an interaction."""
 
-    nominal: Interaction | None = None
-    members: dict[str, Interaction] = field(default_factory=dict)
-
-    def speed(self) -> float:
-        rows = (*filter(None, [self.nominal]), *self.members.values())
-        return float(np.median([row["peak_speed_rad_s"] for row in rows]))
-
-    def any(self) -> Interaction:
-        return self.nominal or next(iter(self.members.values()))
+_Match = dict[str, Interaction]
+"""One interaction, as the nominal run has it, which is the first if it does, and as members do, by name."""
 
 
 def ranges(
@@ -47,50 +37,41 @@ def ranges(
     Two are the same where mode and engine order are; those that no crossing explains where one crossing could hold both.
     `speeds`: first and last (rad/s) of the members; what the nominal run shows beyond them no member could.
     """
-    within = [row for row in nominal if speeds[0] <= row["peak_speed_rad_s"] <= speeds[1]]
-    return [_row(match, len(members)) for match in sorted(_matched(within, members, choice), key=_Found.speed)]
-
-
-def _matched(
-    nominal: Sequence[Interaction], members: Mapping[str, Sequence[Interaction]], choice: InteractionChoice
-) -> list[_Found]:
-    """The nominal interactions in their order with the members that show them, then those of members alone."""
-    matches = [_Found(row) for row in nominal]
+    matches: list[_Match] = [{_NOMINAL: row} for row in nominal if speeds[0] <= row["peak_speed_rad_s"] <= speeds[1]]
     for name, interactions in members.items():
         for row in interactions:
-            fits = [match for match in matches if name not in match.members and _same(row, match, choice)]
+            fits = [match for match in matches if name not in match and _same(row, match, choice)]
             if fits:
-                min(fits, key=lambda match: abs(match.speed() - row["peak_speed_rad_s"])).members[name] = row
+                min(fits, key=lambda match: abs(_speed(match) - row["peak_speed_rad_s"]))[name] = row
             else:
-                matches.append(_Found(members={name: row}))
-    return matches
+                matches.append({name: row})
+    return [_row(match, len(members)) for match in sorted(matches, key=_speed)]
 
 
-def _same(row: Interaction, match: _Found, choice: InteractionChoice) -> bool:
-    known = match.any()
+def _speed(match: _Match) -> float:
+    return float(np.median([row["peak_speed_rad_s"] for row in match.values()]))
+
+
+def _same(row: Interaction, match: _Match, choice: InteractionChoice) -> bool:
+    known = next(iter(match.values()))
     if (row["mode"], row["engine_order"]) != (known["mode"], known["engine_order"]):
         return False
-    low, high = sorted((row["peak_speed_rad_s"], match.speed()))
+    low, high = sorted((row["peak_speed_rad_s"], _speed(match)))
     return bool(row["mode"]) or high <= choice.span * low
 
 
-def _row(match: _Found, members: int) -> dict[str, object]:
-    known, share = match.any(), len(match.members) / members
+def _row(match: _Match, members: int) -> dict[str, object]:
+    known, shown = next(iter(match.values())), [row for name, row in match.items() if name != _NOMINAL]
+    share = len(shown) / members
     row: dict[str, object] = {"mode": known["mode"], "engine_order": known["engine_order"], "members": members}
     row |= {"share_of_members": share, "robust": share >= ROBUST}
     for name in names(RANGED):
-        values = np.array([member[name] for member in match.members.values()], float)
+        values = np.array([member[name] for member in shown], float)
         values = values[np.isfinite(values)]
         quantiles = np.quantile(values, list(ENDS.values()), method="inverted_cdf") if len(values) else [np.nan] * len(ENDS)
-        row[name] = match.nominal[name] if match.nominal else np.nan
+        row[name] = known[name] if _NOMINAL in match else np.nan
         row |= {f"{name}_{end}": float(value) for end, value in zip(ENDS, quantiles, strict=True)}
     return row
-
-
-def range_table(rows: Iterable[tuple[str, str, dict[str, object]]]) -> pd.DataFrame:
-    """The rows of all blades and scenes as a table, columns as in COLUMNS."""
-    made = [{"blade": blade, "scene": scene, **row} for blade, scene, row in rows]
-    return pd.DataFrame(made, columns=COLUMNS).astype({"engine_order": "Int64"})
 
 
 def closing(results: Path) -> str:

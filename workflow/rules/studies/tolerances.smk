@@ -1,6 +1,7 @@
 # Tolerances: members of each blade and scene, with other values of what is never known exactly, and what is made of them.
 from r37studies.tolerances import plan as tolerances_plan
-from r37studies.tolerances.plan import Tolerances
+from r37core.sweep.recipe import structure_attributes
+from r37studies.tolerances.members import Tolerances
 
 tolerances = settings.made(Tolerances)
 
@@ -23,14 +24,14 @@ use rule step as tolerance_members with:
         **step("r37studies.tolerances.steps.run"),
         sweeps=tolerances.sweeps,
         speeds=tolerances.speeds,
-        structure=tolerances.structure,
+        structure=lambda wildcards: structure_attributes(settings, wildcards.blade),
         about=tolerances.about,
         provenance=sweep.provenance,
 
 
 use rule step as tolerances_dataset with:
     input:
-        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.sample.pairs)}),
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.pairs)}),
     output:
         dataset=tolerances_plan.DATASET,
     log:
@@ -38,14 +39,14 @@ use rule step as tolerances_dataset with:
     params:
         **step("r37studies.tolerances.steps.join"),
         samples=tolerances.samples,
-        numbers=[number.key for number in tolerances.sample.numbers],
+        numbers=[number.key for number in tolerances.numbers],
         fidelity=settings.fidelity_name,
 
 
 use rule step as tolerance_table with:
     input:
         **tolerances.nominal,
-        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.sample.pairs)}),
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.pairs)}),
         rounds=tolerances.first_rounds,
     output:
         table=shown(tolerances_plan.TABLE, SOURCE / "r37studies/tolerances/report.rst", TOGETHER, "tolerances"),
