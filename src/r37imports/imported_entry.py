@@ -1,5 +1,6 @@
 """Blades of other programs in blades.yaml: a mesh, or a directory of matrices."""
 
+from itertools import product
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -42,15 +43,16 @@ class SurfaceRule(Section):
             raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m, planes_m or sets")
         if [0.0, 0.0, 0.0] in self.planes_m:
             raise refused(("planes_m",), "a plane through the origin", "planes that do not contain it")
-        if self.cone_zr_m is not None and self.cone_zr_m[0] == self.cone_zr_m[1]:
+        first, last = self.cone_zr_m or ([0.0, 0.0], [1.0, 0.0])
+        if first == last:
             raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
-        if self.cone_zr_m is not None and min(radius for _, radius in self.cone_zr_m) < 0.0:
+        if min(first[1], last[1]) < 0.0:
             raise refused(("cone_zr_m",), f"{self.cone_zr_m}", "two points [z, r], with radii of 0 or more")
 
     def _limits(self) -> tuple[tuple[str, str, float], ...]:
-        names = [(axis, bound) for axis in "rxz" for bound in ("at_least", "at_most")]
-        limits = [(axis, bound, getattr(self, f"{axis}_{bound}_m")) for axis, bound in names]
-        return tuple((axis, bound, float(value)) for axis, bound, value in limits if value is not None)
+        names = product("rxz", ("at_least", "at_most"))
+        limits = ((axis, bound, getattr(self, f"{axis}_{bound}_m")) for axis, bound in names)
+        return tuple(limit for limit in limits if limit[-1] is not None)
 
     def where(self) -> Where:
         """The rule as the import takes it."""

@@ -289,6 +289,13 @@ def test_a_deck_may_include_a_file_twice(deck):
     read(folder)
 
 
+def test_rows_of_an_included_file_continue_the_block(deck):
+    folder = deck(lambda text: text.replace("*ELEMENT", "*INCLUDE, INPUT=more.inc\n*ELEMENT", 1))
+    (folder / "more.inc").write_text("99999, 0.2, 0., 0.\n")
+    with refused(r"1 of \d+ nodes belong to no .*\(99999\)"):
+        read(folder)
+
+
 def test_a_long_chain_of_included_files(deck):
     folder = deck(lambda text: text + "*INCLUDE, INPUT=0.inc\n")
     for number in range(2000):

@@ -205,8 +205,8 @@ def matrix_files(name: str, root: Path) -> dict[str, Path]:
     folder = root / name
     if not os.path.isdir(folder):
         raise ImportRefused(f"there is no folder {name}", "matrices")
-    ours = (file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv")
-    files = [file for file in ours if os.path.isfile(file)]
+    ours = (file for file in sorted(folder.glob("*")) if os.path.isfile(file))
+    files = [file for file in ours if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
     files_of_stem = {file.stem: file for file in files}
     speeds = [stem for stem in files_of_stem if stem.startswith("K_")]
     missing = [stem for stem in ("M", "boundary") if stem not in files_of_stem]

@@ -106,7 +106,12 @@ class SectionCurve:
         """Where the edge at the dense point `end` meets both sides, as signed numbers of samples from its nose."""
         near = _near_end(self._plane, end, other, corners)
         if len(near) == 2:
-            return _EdgeLimits.straight(near, len(self._plane))
+            # the shorter way round between two corners
+            count, (first, second) = len(self._plane), near.astype(float).tolist()
+            if (second - first) % count > (first - second) % count:
+                first, second = second, first
+            second = _beyond(second, first, count)
+            return _EdgeLimits(first, 0.5 * (first + second), second, False)
         limits = _thickness_limits(self._plane, end, other, bool(len(near)))
         if limits is None:
             which = "leading" if self._dense[end, 2] <= self._dense[other, 2] else "trailing"
@@ -200,15 +205,6 @@ class _EdgeLimits:
     nose: float
     after: float
     round: bool
-
-    @classmethod
-    def straight(cls, corners: np.ndarray, count: int) -> _EdgeLimits:
-        """Edge between two corners, the shorter way round."""
-        first, second = (float(corner) for corner in corners)
-        if (second - first) % count > (first - second) % count:
-            first, second = second, first
-        second = _beyond(second, first, count)
-        return cls(first, 0.5 * (first + second), second, False)
 
 
 def _edge(arc: np.ndarray, is_round: bool) -> SectionEdge:
