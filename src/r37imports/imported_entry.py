@@ -105,7 +105,7 @@ class Oriented(BladeKind):
         return self.source(root)
 
     def source(self, root: Path) -> Definition:
-        """What the import takes, with files from the folder `root`; ImportRefused where they are missing."""
+        """Source as the import takes it, with files from the folder `root`; ImportRefused where they are missing."""
         raise NotImplementedError
 
 
@@ -147,7 +147,7 @@ class MatricesEntry(Oriented):
 
     key: ClassVar[str] = "matrices"
     file_keys: ClassVar[tuple[str, ...]] = ("matrices",)
-    with_material: ClassVar[bool] = False
+    has_material: ClassVar[bool] = False
 
     matrices: FileName = Field(description="Folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
     contact: Literal["points", "patches"] = Field(

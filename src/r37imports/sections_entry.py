@@ -73,7 +73,7 @@ class SectionsEntry(ShapeKeys, Oriented):
     file_keys: ClassVar[tuple[str, ...]] = ("sections", "hub", "tip")
     no_files: ClassVar[tuple[str, ...]] = (OWN, ASKED)
     varied: ClassVar[tuple[str, ...]] = _VARIED
-    with_shape: ClassVar[bool] = True
+    has_shape: ClassVar[bool] = True
 
     sections: FileName = Field(description=".curve, .crv, .geomTurbo, or .csv with section, x, y, z")
     length_unit: Annotated[

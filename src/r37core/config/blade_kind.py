@@ -15,16 +15,16 @@ class BladeKind(Section):
     """A blade given by something else than profiles; the `key` of its entry tells the kind.
 
     `file_keys`: keys of files, where a value is none of `no_files`; `varied`: keys with a number that may vary in a family;
-    `with_shape`: whether its definition is a Shape, which this program meshes, so that variants may have other sweep and lean;
-    `with_material`: whether it has a material and a mesh, and so stress, and can be a base.
+    `has_shape`: whether its definition is a Shape, which this program meshes, so that variants may have other sweep and lean;
+    `has_material`: whether it has a material and a mesh, and so stress, and can be a base.
     """
 
     key: ClassVar[str]
     file_keys: ClassVar[tuple[str, ...]]
     no_files: ClassVar[tuple[str, ...]] = ()
     varied: ClassVar[tuple[str, ...]] = ()
-    with_shape: ClassVar[bool] = False
-    with_material: ClassVar[bool] = True
+    has_shape: ClassVar[bool] = False
+    has_material: ClassVar[bool] = True
 
     def definition(self, name: str, root: Path, check_sense: bool) -> Definition:
         """Definition of the blade, with files from the folder `root`; `check_sense`: whether its sense is checked.

@@ -57,7 +57,7 @@ class BladeEntry(ShapeKeys, GivenShape):
 
     # as of BladeKind, and numbers in rows of a table
     varied: ClassVar[tuple[str, ...]] = ("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *END_KEYS, *MATERIAL_KEYS)
-    at_most_one_of = (("profiles", "base"), *ShapeKeys.at_most_one_of)
+    refuse_several = (("profiles", "base"), *ShapeKeys.refuse_several)
 
     contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}; by default that of the base, without one patches")
     kinematics: Kinematics | LeftOut = left_out(f"{KINEMATICS_IN_WORDS}; by default that of the base, without one quadratic")
@@ -149,7 +149,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     chain = chain_of_bases(name, lambda link: getattr(entries[link], "base", None), entries, document, "blade")
     first, entry = chain[0], entries[chain[0]]
     check_sense = all(entries[link].sense_check for link in chain)
-    if isinstance(entry, BladeKind) and not entry.with_material:
+    if isinstance(entry, BladeKind) and not entry.has_material:
         if len(chain) > 1:
             raise document.refusal((chain[1], "base"), f"'{first}', a blade of {entry.key}", "a blade with profiles or a mesh")
         definition = _described(entry, first, root, document, check_sense)
@@ -162,7 +162,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     # some kinds have the regions of config.yaml alone
     own = (getattr(entries[link], "stress_regions", None) for link in reversed(chain))
     regions = chosen_regions(next(filter(None, own), {}))
-    if isinstance(entry, BladeKind) and not entry.with_shape:
+    if isinstance(entry, BladeKind) and not entry.has_shape:
         for link in chain[1:]:
             keys = [key for key in (*SHIFTS, *SHARES, *SECTION_KEYS) if getattr(entries[link], key) is not None]
             if keys := keys if entries[link].sense_check else [*keys, "sense_check"]:

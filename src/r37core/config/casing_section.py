@@ -89,7 +89,7 @@ class CasingSection(Section):
     """Shape and elasticity of the casing."""
 
     one_of = (("clearance_m", "clearance"),)
-    at_most_one_of = (_HEIGHTS, ("ring", "ring_modes"))
+    refuse_several = (_HEIGHTS, ("ring", "ring_modes"))
 
     clearance: ClearanceSection | LeftOut = None
     clearance_over_revolutions: ChangeSection | LeftOut = None

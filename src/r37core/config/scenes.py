@@ -57,7 +57,7 @@ class DampingSection(Section):
 class DampingRowSection(Section):
     """Damping ratio of a mode at a speed, and its range; linear between the speeds of its rows, constant beyond."""
 
-    at_most_one_of = (("speed_rad_s", "speed_rpm"),)
+    refuse_several = (("speed_rad_s", "speed_rpm"),)
 
     def _check(self) -> None:
         lowest, highest = (self.ratio if bound is None else bound for bound in (self.lowest, self.highest))
@@ -85,7 +85,7 @@ DampingRatio: Any = or_section(DampingNumber, DampingSection, rows=DampingRows)
 class SceneEntry(Section):
     """One scene of scenes.yaml; with `vary` or `designs` a family, many scenes that differ in some numbers."""
 
-    at_most_one_of = (FAMILY_WAYS,)
+    refuse_several = (FAMILY_WAYS,)
 
     base: Name | LeftOut = left_out("Scene of this file that gives what is left out; null leaves out a key that it has")
     tip_line: TipLine | LeftOut = left_out("Line of the contact nodes; by default structure.boundary.tip_line")

@@ -34,13 +34,13 @@ class Without(Enum):
 class Section(BaseModel):
     """A mapping of a configuration file: only declared keys, no null, no text for a number, nothing infinite.
 
-    `declares`: dataclass that declares its keys and is made of it (r37core.config.declaring.si). `one_of`, `at_most_one_of`:
+    `declares`: dataclass that declares its keys and is made of it (r37core.config.declaring.si). `one_of`, `refuse_several`:
     keys of which an entry has exactly one, or at most one.
     """
 
     declares: ClassVar[Any] = None
     one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    at_most_one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    refuse_several: ClassVar[tuple[tuple[str, ...], ...]] = ()
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
@@ -60,7 +60,7 @@ class Section(BaseModel):
 
     @model_validator(mode="after")
     def _checked(self) -> Self:
-        for keys in (*self.one_of, *self.at_most_one_of):
+        for keys in (*self.one_of, *self.refuse_several):
             present = [key for key in keys if getattr(self, key) is not None]
             if len(present) > 1:
                 allowed = "one of them; null (None in Python) leaves out an inherited one"

@@ -108,7 +108,7 @@ class SweepLean(Section):
 class ShapeKeys(Section):
     """Changes of profiles or sections, with at most one way to give sweep and lean."""
 
-    at_most_one_of: ClassVar[tuple[tuple[str, ...], ...]] = (SHIFTS, FAMILY_WAYS)
+    refuse_several: ClassVar[tuple[tuple[str, ...], ...]] = (SHIFTS, FAMILY_WAYS)
 
     stacking_table: FileName | LeftOut = left_out("Table (CSV) of sweep and lean with a column `blade`")
     sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = left_out(

@@ -21,7 +21,7 @@ from .speed_run import run_speed, simulation_of
 
 @dataclass(frozen=True)
 class Task:
-    """What a simulation does, at whichever speed; as JSON text a parameter of its job. `kept`: see run_speed."""
+    """Choices of a simulation at any speed; as JSON text a parameter of its job. `kept`: see run_speed."""
 
     scene: Scene
     choice: IntegrationChoice

@@ -58,7 +58,7 @@ class SectionsDefinition(Shape):
         return self.curve(len(self.sections) - 1).radius - self.curve(0).radius
 
     def _ends(self) -> list[Meridian | None]:
-        """What cuts the blade at hub and tip."""
+        """Surfaces that cut the blade at hub and tip."""
         return [Meridian(points) if points else None for points in (self.hub, self.tip)]
 
     def places(self) -> np.ndarray:
