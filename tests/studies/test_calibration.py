@@ -6,7 +6,7 @@ import pytest
 from r37core.base.varied_number import SCENE, VariedNumber
 from r37core.config.spread import SpreadEntry
 from r37core.sweep.driver import one_by_one
-from r37studies.measured.calibration import Calibration, Numbers
+from r37studies.measured.calibration import Calibration
 from r37studies.measured.points import Measurement, Points
 from r37studies.measured.posterior import calibration_dataset, notes, number_table
 from r37studies.measured.sampling import draws
@@ -33,8 +33,7 @@ def calibrated(model, measured, runs=28, deviation=0.05):
     values = tuple(np.asarray(measured, dtype=float))
     points = Points(SPEEDS, values, tuple(deviation * np.array(values)), (0,) * len(SPEEDS))
     measurement = Measurement("tip.csv", "A", "s", "displacement_normal", points)
-    numbers = Numbers(SPREADS, (1e-3, 0.15), 0)
-    calibration = Calibration({"m0": measurement}, numbers, lambda calls, what="": one_by_one(calls))
+    calibration = Calibration({"m0": measurement}, SPREADS, (1e-3, 0.15), 0, lambda calls, what="": one_by_one(calls))
 
     def simulate(designs):
         return [{"m0": model(values[LENGTH], values[FRICTION])} for values in designs.values()]

@@ -55,7 +55,7 @@ def test_a_column_has_the_unit_of_its_name(read, header, speed, value):
 
 def test_rows_without_a_number_are_left_out_and_speeds_ascend(read):
     points = read("speed_rpm;a_mm;uncertainty_mm\n3000;2;0.2\n2000;;0.1\n1000;1;0.1\n")
-    assert points.values == (1e-3, 2e-3) and points.deviations == (1e-4, 2e-4) and points.dropped == 1
+    assert points.values == (1e-3, 2e-3) and points.deviations == (1e-4, 2e-4)
     assert points.speeds == pytest.approx((1000 * np.pi / 30, 3000 * np.pi / 30))
 
 
@@ -88,7 +88,6 @@ def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
     values = 1.0 + 1.0 / (1.0 + (speeds - 1234.56) ** 2)
     points = read("speed_rad_s,a_m\n" + "".join(f"{a:.9g},{b:.9g}\n" for a, b in zip(speeds, values, strict=True)))
     assert len(points.values) <= MOST_SPEEDS + 1 and max(points.values) == pytest.approx(2.0)
-    assert points.dropped == 100_001 - len(points.values)
 
 
 @pytest.mark.parametrize(
@@ -180,13 +179,13 @@ def test_a_profile_is_turned_to_where_it_fits_and_says_when_it_is_backwards(read
         (1.3, 0.1, True),
         (1.5, 0.1, False),
     ):
-        four = Points.collected(np.ones(1), np.array([0.0, 3.0, 1.0, last]), np.full(4, deviation), angles=middles)
+        four = Points.collected(1.0, [0.0, 3.0, 1.0, last], deviation, 0, angles=middles)
         profile, remark = turned_profile(np.array([0.0, 1.0, 3.0, 0.0]), four)
         assert profile == pytest.approx([1.0, 3.0, 0.0, 0.0]) and remark.startswith("turned by 90 degrees")
         assert ("read backwards" in remark) == is_backwards
     # many points are means of a degree
     many = read("angle_deg,depth_um\n" + "".join(f"{a / 100},{a % 100}\n" for a in range(36_000)), WORN)
-    assert len(many.values) == 360 and many.dropped == 35_640
+    assert len(many.values) == 360
     np.testing.assert_allclose(many.values, 49.5e-6, rtol=0.02)
 
 

@@ -33,29 +33,19 @@ Simulate = Callable[[Mapping[str, Mapping[VariedNumber, float]]], Sequence[Mappi
 """Gives the values at the points of each measurement, of designs by name; or why one cannot be run."""
 
 
-@dataclass(frozen=True)
-class Numbers:
-    """The numbers that are fitted: each with its distribution, and its value in the configuration."""
-
-    spreads: Mapping[VariedNumber, SpreadEntry]
-    nominal: Sequence[float]
-    seed: int
-
-    def values(self, share: Sequence[float]) -> dict[VariedNumber, float]:
-        """Values at a point of the unit cube."""
-        return drawn(self.spreads, self.nominal, share)
-
-
 @dataclass
 class Calibration:
     """Designs so far, at points of the unit cube, with their simulated values at all measured points.
 
-    `measurements`: by name; `simulated`: infinite where a run diverged or could not be done; `predicted`: values and deviations
-    that surrogates gave the designs of all rounds but the first before they were run.
+    `measurements`: by name; `spreads`: distribution of each number; `nominal`: its value in the configuration. `simulated`:
+    infinite where a run diverged or could not be done; `predicted`: values and deviations that surrogates gave the designs of
+    all rounds but the first before they were run.
     """
 
     measurements: Mapping[str, Measurement]
-    numbers: Numbers
+    spreads: Mapping[VariedNumber, SpreadEntry]
+    nominal: Sequence[float]
+    seed: int
     run_all: RunAll
     cube: list[tuple[float, ...]] = field(default_factory=list)
     simulated: list[np.ndarray] = field(default_factory=list)
@@ -66,7 +56,9 @@ class Calibration:
         for number, count in enumerate(budget):
             tell(f"calibrate: round {number}, {count} designs" + (f"; {self.told}" if self.cube else ""))
             new = self._next(count)
-            named = {f"c{len(self.cube) + place:04d}": self.numbers.values(point) for place, point in enumerate(new)}
+            named = {
+                f"c{len(self.cube) + place:04d}": drawn(self.spreads, self.nominal, point) for place, point in enumerate(new)
+            }
             for point, gave in zip(new, simulate(named), strict=True):
                 self.cube.append(point)
                 # what cannot be run has no finite value
@@ -119,7 +111,7 @@ class Calibration:
         if done.sum(axis=0).min() < 4:
             remedy = "narrower ranges of the numbers, or friction and damping at which runs do not diverge"
             raise ValueError(f"calibrate: fewer than 4 designs could be run to their end; {remedy}")
-        columns, seed = zip(simulated.T, done.T, strict=True), self.numbers.seed
+        columns, seed = zip(simulated.T, done.T, strict=True), self.seed
         calls = [partial(fit, cube[known], column[known], np.zeros(known.sum()), seed) for column, known in columns]
         fits = tuple(self.run_all(calls, "surrogates"))
         # the last designs lie where the measurements leave most possible
@@ -130,16 +122,16 @@ class Calibration:
     def posterior(self) -> tuple[Likelihood, np.ndarray, np.ndarray]:
         """The likelihood, draws over the unit cube and the logarithm of the likelihood there, the most likely first."""
         likelihood = self.likelihood()
-        cube, logs = draws(likelihood.log, len(self.numbers.spreads), _LAST_DRAWS, self.numbers.seed)
+        cube, logs = draws(likelihood.log, len(self.spreads), _LAST_DRAWS, self.seed)
         order = np.argsort(-logs, kind="stable")
         return likelihood, cube[order], logs[order]
 
     def _next(self, count: int) -> list[tuple[float, ...]]:
         """The first designs spread evenly; of others one is the search's proposal, the rest draws that are known least."""
-        seed, numbers = self.numbers.seed, len(self.numbers.spreads)
+        seed, numbers = self.seed, len(self.spreads)
         if not self.cube:
             return list(sobol_points(numbers, 1 << (count - 1).bit_length(), seed).values())[:count]
-        variables = [SearchVariable(number.name, 0.0, 1.0) for number in self.numbers.spreads]
+        variables = [SearchVariable(number.name, 0.0, 1.0) for number in self.spreads]
         known = enumerate(zip(self.cube, self.misfits.tolist(), strict=True))
         tried = [Design(f"{place}", point, (misfit,), (nan,), ()) for place, (point, misfit) in known]
         chosen, likelihood = [*propose(variables, tried, 1, seed)], self.likelihood()

@@ -1,7 +1,7 @@
 """Simulations of the designs of a calibration."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from math import inf
 from pathlib import Path
@@ -56,39 +56,45 @@ def observed_blade(
     return blade
 
 
-@dataclass(frozen=True)
-class Evaluation:
-    """Simulations of designs: `blades` of the configuration by blade and scene, with files in a `folder`."""
+def simulate(
+    settings: Settings,
+    blades: Mapping[tuple[str, str], ObservedBlade],
+    folder: Path,
+    run_all: RunAll,
+    designs: Mapping[str, Mapping[VariedNumber, float]],
+) -> Sequence[Values | str]:
+    """Simulated values of each measurement, by name, of designs; or why one cannot be run.
 
-    settings: Settings
-    blades: Mapping[tuple[str, str], ObservedBlade]
-    folder: Path
-    run_all: RunAll
+    `blades` of the configuration by blade and scene, with files in a `folder`.
+    """
+    return list(run_all([partial(_design, settings, blades, folder, *design) for design in designs.items()], "designs"))
 
-    def simulate(self, designs: Mapping[str, Mapping[VariedNumber, float]]) -> Sequence[Values | str]:
-        """Simulated values of each measurement, by name, of designs; or why one cannot be run."""
-        return list(self.run_all([partial(self._design, name, values) for name, values in designs.items()], "designs"))
 
-    def _design(self, name: str, values: Mapping[VariedNumber, float]) -> Values | str:
-        simulated: Values = {}
-        settings = self.settings
-        try:
-            for (blade, scene), observed in self.blades.items():
-                changed, other = settings.made(Calibrated).changed(blade, scene, values)
-                made_of = observed.parts.made_of
-                if changed.elastic != settings.blades[blade].elastic:
-                    varied = varied_settings(settings, {blade: changed}, {})
-                    (structures := self.folder / STRUCTURES).mkdir(parents=True, exist_ok=True)
-                    sweep, attributes = blade_sweep(varied, blade, scene, kept=False), structure_attributes(settings, blade)
-                    file = sweep.file("contact_model", structures, attributes)
-                    observed, made_of = replace(observed, model=read_contact_model(file)), [content_digest(file), made_of]
-                parts = replace(observed.parts, folder=self.folder / name / blade / scene, made_of=made_of)
-                runs = replace(observed, parts=parts)
-                # on a bare casing a single run is a matter of chance
-                scenes = [other.scaled_friction(factor) or other for factor in ((1.0,) if other.lined else _FRICTION)]
-                several = [dict(part[:2] for part in runs.simulated(each)) for each in scenes]
-                means = {measured: np.mean([each[measured] for each in several], axis=0) for measured in several[0]}
-                simulated |= {measured: np.nan_to_num(values, nan=inf).tolist() for measured, values in means.items()}
-        except (ConfigError, ImpossibleValueError, BucklingError, NoEquilibriumError, NoRoomError) as error:
-            return str(error)
-        return simulated
+def _design(
+    settings: Settings,
+    blades: Mapping[tuple[str, str], ObservedBlade],
+    folder: Path,
+    name: str,
+    values: Mapping[VariedNumber, float],
+) -> Values | str:
+    simulated: Values = {}
+    try:
+        for (blade, scene), observed in blades.items():
+            changed, other = settings.made(Calibrated).changed(blade, scene, values)
+            made_of = observed.parts.made_of
+            if changed.elastic != settings.blades[blade].elastic:
+                varied = varied_settings(settings, {blade: changed}, {})
+                (structures := folder / STRUCTURES).mkdir(parents=True, exist_ok=True)
+                sweep, attributes = blade_sweep(varied, blade, scene, kept=False), structure_attributes(settings, blade)
+                file = sweep.file("contact_model", structures, attributes)
+                observed, made_of = replace(observed, model=read_contact_model(file)), [content_digest(file), made_of]
+            parts = replace(observed.parts, folder=folder / name / blade / scene, made_of=made_of)
+            runs = replace(observed, parts=parts)
+            # on a bare casing a single run is a matter of chance
+            scenes = [other.scaled_friction(factor) or other for factor in ((1.0,) if other.lined else _FRICTION)]
+            several = [dict(part[:2] for part in runs.simulated(each)) for each in scenes]
+            means = {measured: np.mean([each[measured] for each in several], axis=0) for measured in several[0]}
+            simulated |= {measured: np.nan_to_num(values, nan=inf).tolist() for measured, values in means.items()}
+    except (ConfigError, ImpossibleValueError, BucklingError, NoEquilibriumError, NoRoomError) as error:
+        return str(error)
+    return simulated

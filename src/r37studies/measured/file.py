@@ -35,51 +35,40 @@ _UNCERTAINTY = re.compile(r"uncertainty|sigma|std|deviation|error|(?<![a-z])sd(?
 
 
 @dataclass(frozen=True)
-class _Column:
-    """A column: its title, the kind of quantity by its unit, "" without one, and what one of that is in the SI."""
-
-    title: str
-    kind: str
-    factor: float
-
-    @property
-    def is_uncertainty(self) -> bool:
-        return _UNCERTAINTY.search(self.title) is not None
-
-
-@dataclass(frozen=True)
 class _Table:
     """The rows of a file that count."""
 
     cells: pd.DataFrame
 
     @property
-    def columns(self) -> list[_Column]:
-        return [_column(title) for title in self.cells]
+    def columns(self) -> dict[str, tuple[str, float]]:
+        """Title of each column -> the kind of quantity by its unit, "" without one, and what one of that is in the SI."""
+        return {title: _kind(title) for title in self.cells}
 
     @property
     def header(self) -> str:
-        kinds = ["uncertainty" if each.kind and each.is_uncertainty else each.kind for each in self.columns]
-        return ", ".join(f"{title} ({kind or 'no number'})" for title, kind in zip(self.cells, kinds, strict=True))
+        kinds = {title: kind or "no number" for title, (kind, _) in self.columns.items()}
+        kinds |= {title: "uncertainty" for title, (kind, _) in self.columns.items() if kind and _UNCERTAINTY.search(title)}
+        return ", ".join(f"{title} ({kind})" for title, kind in kinds.items())
 
-    def column(self, key: str, kind: str, title: str | None = None, *, uncertain: bool = False) -> _Column | None:
+    def column(self, key: str, kind: str, title: str | None = None, *, uncertain: bool = False) -> str | None:
         """The column of this `title`, or the one that fits. Raises MeasurementError for none of the title, and for several."""
-        columns = [each for each in self.columns if each.kind == kind]
-        fitting = [each for each in columns if (each.title == title if title else each.is_uncertainty == uncertain)]
+        columns = [each for each, (own, _) in self.columns.items() if own == kind]
+        fitting = [each for each in columns if (each == title if title else bool(_UNCERTAINTY.search(each)) == uncertain)]
         if len(fitting) > 1 or (title and not fitting):
             problem = f"'{title}'" if title else f"{len(fitting)} columns with a {kind}"
             raise MeasurementError(key, f"found {problem}; allowed: one column with a {kind} of the header: {self.header}")
         return fitting[0] if fitting else None
 
-    def numbers(self, column: _Column) -> np.ndarray:
+    def numbers(self, title: str) -> np.ndarray:
         """Numbers of a column in SI units, NaN where a field is empty. Raises MeasurementError for a text."""
-        texts = self.cells[column.title]
+        texts = self.cells[title]
         numbers = pd.to_numeric(texts, errors="coerce")
         strange = texts[numbers.isna() & texts.notna()]
         if len(strange):
-            place = f"found '{strange.iloc[0]}' under {column.title}, in row {strange.index[0] + 1} below the header"
+            place = f"found '{strange.iloc[0]}' under {title}, in row {strange.index[0] + 1} below the header"
             raise MeasurementError("file", f"{place}; allowed: a number with a point")
-        return column.factor * numbers.to_numpy(float)
+        return self.columns[title][1] * numbers.to_numpy(float)
 
 
 def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[float, ...]]:
@@ -90,18 +79,19 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     title = entry.value
     if title is None and entry.uncertainty in table.cells:
         # the other one, where a column is named that does not look like an uncertainty
-        others = [each.title for each in table.columns if each.kind == kind and each.title != entry.uncertainty]
+        others = [each for each, (own, _) in table.columns.items() if own == kind and each != entry.uncertainty]
         title = others[0] if len(others) == 1 else None
     value = table.column("value", kind, title) or (axes[_SPEED] if entry.speed_of != VALUES else None)
     if value is None:
         wanted = f"no column of {entry.quantity}, with a {kind} in {', '.join(_UNITS[kind])}"
         raise MeasurementError("value", f"{wanted}; the header is: {table.header}")
-    sigma = table.column("uncertainty", value.kind, entry.uncertainty, uncertain=True)
+    is_speed = table.columns[value][0] == _SPEED
+    sigma = table.column("uncertainty", _SPEED if is_speed else kind, entry.uncertainty, uncertain=True)
     columns = {name: column for name, column in {**axes, "value": value, "sigma": sigma}.items() if column}
     numbers = {name: table.numbers(column) for name, column in columns.items()}
     known = np.isfinite([*numbers.values()]).all(axis=0)
     if not known.any():
-        titles = ", ".join(column.title for column in columns.values())
+        titles = ", ".join(columns.values())
         raise MeasurementError("file", f"found no row with all numbers in {titles}; allowed: one or more")
     numbers = {name: part[known] for name, part in numbers.items()}
     if _SPEED not in numbers:
@@ -114,15 +104,15 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     if _TIME in numbers:
         return _signal_amplitudes(numbers, entry), ()
     if (negative := numbers["value"] < 0.0).any():
-        raise MeasurementError("value", f"found {value.title} {numbers['value'][negative][0]:g}; allowed: 0 or more")
-    if value.kind == _SPEED:
+        raise MeasurementError("value", f"found {value} {numbers['value'][negative][0]:g}; allowed: 0 or more")
+    if is_speed:
         # one speed in place of a curve
         if known.sum() > 1:
             raise MeasurementError("rows", f"found {known.sum()} speeds of a {entry.speed_of}; allowed: one row, or a curve")
-        return Points.collected(numbers[_SPEED], numbers[_SPEED], _deviations(numbers, entry)), ()
+        return Points.collected(numbers[_SPEED], numbers[_SPEED], _deviations(numbers, entry), 0), ()
     if entry.quantity == WORN_DEPTH and _ANGLE in numbers:
         return _profile(numbers, entry), ()
-    return _over_speeds(numbers, entry, int((~known).sum()))
+    return _over_speeds(numbers, entry)
 
 
 def _counting_rows(file: Path, entry: MeasurementSection) -> _Table:
@@ -143,15 +133,15 @@ def _counting_rows(file: Path, entry: MeasurementSection) -> _Table:
     return table
 
 
-def _column(title: str) -> _Column:
-    """Column by its title: `speed (rpm)`, `speed [rpm]`, `speed_rpm` or `rpm`."""
+def _kind(title: str) -> tuple[str, float]:
+    """Kind and factor of a column by its title: `speed (rpm)`, `speed [rpm]`, `speed_rpm` or `rpm`."""
     name = re.sub("[\u00b5\u03bc]", "u", title.lower())
     bracket = re.search(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$", name)
     for kind, units in _UNITS.items():
         for unit, factor in units.items():
             if bracket[1] == unit if bracket else f"_{name}".endswith(f"_{unit}"):
-                return _Column(title, kind, factor)
-    return _Column(title, "", 1.0)
+                return kind, factor
+    return "", 1.0
 
 
 def _deviations(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> np.ndarray:
@@ -168,26 +158,22 @@ def _deviations(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) ->
     return 0.01 * entry.uncertainty_percent * np.maximum(values, 0.1 * values.max())
 
 
-def _over_speeds(
-    numbers: Mapping[str, np.ndarray], entry: MeasurementSection, missing: int
-) -> tuple[Points, tuple[float, ...]]:
+def _over_speeds(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> tuple[Points, tuple[float, ...]]:
     speeds, places, counts = np.unique(numbers[_SPEED], return_inverse=True, return_counts=True)
     # a speed that was measured several times has the mean of its values
     values = np.bincount(places, numbers["value"]) / counts
     deviations = np.sqrt(np.bincount(places, _deviations(numbers, entry) ** 2)) / counts
     kept = np.unique(np.append(np.linspace(0, len(speeds) - 1, min(MOST_SPEEDS, len(speeds))).astype(int), values.argmax()))
     speeds, values, deviations = speeds[kept], values[kept], deviations[kept]
-    dropped = missing + len(places) - len(kept)
     if entry.speed_of == VALUES:
-        return Points.collected(speeds, values, deviations, entry.engine_order or 0, dropped=dropped), ()
+        return Points.collected(speeds, values, deviations, entry.engine_order or 0), ()
     first = feature_speed(speeds, values, entry.limit)
     if not speeds[0] < first < speeds[-1]:
         largest = f"values from {values.min():g} to {values.max():g}"
         raise MeasurementError("limit", f"found {largest}; allowed: a {entry.speed_of} between the first speed and the last")
     width = float(np.diff(speeds)[max(int(np.searchsorted(speeds, first)) - 1, 0)])
     # anywhere between two speeds: a uniform distribution
-    point = Points.collected(first, np.array([first]), width / np.sqrt(12.0), dropped=dropped)
-    return point, tuple(speeds.tolist())
+    return Points.collected(first, first, width / np.sqrt(12.0), 0), tuple(speeds.tolist())
 
 
 def _profile(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:
@@ -201,7 +187,7 @@ def _profile(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Po
     values, deviations = (np.bincount(places, part) / counts for part in (numbers["value"], _deviations(numbers, entry)))
     # an angle in the middle of its sector: a mean would be wrong at 0
     middles = (used + 0.5) * pi / 180.0 if is_dense else angles
-    return Points.collected(speeds, values, deviations, angles=tuple(middles.tolist()), dropped=len(angles) - len(used))
+    return Points.collected(speeds, values, deviations, 0, angles=tuple(middles.tolist()))
 
 
 def _signal_amplitudes(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:

@@ -20,7 +20,7 @@ from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 from r37studies.tip_timing import arrival_times
 
-from .points import HALF_PEAK_TO_PEAK, STRAIN, TIP_TIMING, WORN_DEPTH, Measurement
+from .points import STRAIN, TIP_TIMING, WORN_DEPTH, Measurement
 
 SECTORS = 360
 """Sectors round the casing of a profile."""
@@ -111,4 +111,4 @@ def statistic(signal: np.ndarray, samples: int, measurement: Measurement, order:
     if order:
         turn = np.exp(-2j * np.pi * order * np.arange(len(signal)) / samples)
         return float(2.0 * np.abs(np.mean(signal * turn)))
-    return float(0.5 * np.ptp(signal) if measurement.statistic == HALF_PEAK_TO_PEAK else np.sqrt(np.mean(signal**2)))
+    return float(0.5 * np.ptp(signal) if measurement.statistic == "half_peak_to_peak" else np.sqrt(np.mean(signal**2)))

@@ -8,11 +8,8 @@ import numpy as np
 
 from r37core.stress.gauge import Gauge
 
-RMS, HALF_PEAK_TO_PEAK, ORDER = "rms", "half_peak_to_peak", "order"
-VALUES, PEAK, FIRST_ABOVE = "values", "peak", "first_above"
+RMS, VALUES = "rms", "values"
 WORN_DEPTH, STRAIN, TIP_TIMING = "worn_depth", "strain", "tip_timing"
-LEADING_EDGE, TRAILING_EDGE = "leading_edge", "trailing_edge"
-NORMAL, TANGENTIAL, RADIAL = (f"displacement_{direction}" for direction in ("normal", "tangential", "radial"))
 
 
 @dataclass(frozen=True)
@@ -20,7 +17,7 @@ class Points:
     """Measured values in SI units with their standard deviations, at speeds (rad/s).
 
     `angles` (rad) of a profile round the casing, else none; `orders`: engine order of each amplitude, 0 where the value is
-    the measurement's statistic. `dropped`: rows of the file that are no points.
+    the measurement's statistic.
     """
 
     speeds: tuple[float, ...]
@@ -28,21 +25,19 @@ class Points:
     deviations: tuple[float, ...]
     orders: tuple[int, ...]
     angles: tuple[float, ...] = ()
-    dropped: int = 0
 
     @classmethod
-    def collected(cls, speeds: Any, values: np.ndarray, deviations: Any, orders: Any = 0, **others: Any) -> Self:
-        """Points of arrays of shape (points,), or of one speed, deviation or order that all have; `others`: further fields."""
-        columns = (np.broadcast_to(part, values.shape).tolist() for part in (speeds, values, deviations, orders))
-        places, measured, sure, numbers = map(tuple, columns)
-        return cls(places, measured, sure, numbers, **others)
+    def collected(cls, *columns: Any, angles: tuple[float, ...] = ()) -> Self:
+        """Points of speeds, values, deviations and orders: arrays of shape (points,), or one number that all have."""
+        equally_long = np.broadcast_arrays(*map(np.atleast_1d, columns))
+        return cls(*(tuple(part.tolist()) for part in equally_long), angles=angles)
 
 
 @dataclass(frozen=True)
 class Measurement:
     """A `quantity` of a blade in a scene and its `points`; `file` as it is named.
 
-    `statistic`: RMS, HALF_PEAK_TO_PEAK or ORDER; `speed_of`: PEAK, or FIRST_ABOVE with a `limit` in SI units, where the one
+    `statistic`: rms, half_peak_to_peak or order; `speed_of`: peak, or first_above with a `limit` in SI units, where the one
     point is the speed of that on a curve over `curve_speeds` (rad/s). `probe` (rad), `gauge`: of tip timing and strain.
     """
 
@@ -52,7 +47,7 @@ class Measurement:
     quantity: str
     points: Points
     statistic: str = RMS
-    tip_point: str = LEADING_EDGE
+    tip_point: str = "leading_edge"
     probe: float = 0.0
     gauge: Gauge | None = None
     speed_of: str = VALUES

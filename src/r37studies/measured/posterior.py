@@ -12,6 +12,7 @@ from r37core.base.varied_number import SCENE, VariedNumber, with_value
 from r37core.base.yaml_file import yaml_text
 from r37core.config import Settings
 from r37core.config.changed_numbers import scene_numbers
+from r37studies.member_values import drawn
 
 from .calibration import Calibration
 
@@ -32,10 +33,13 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
     likelihood, cube, logs = calibration.posterior()
     # the best first, and others evenly over the draws, which are sorted by their likelihood
     kept = np.unique(np.linspace(0, len(cube) - 1, min(count, len(cube))).astype(int))
-    numbers, measurements = calibration.numbers, calibration.measurements.values()
+    measurements = calibration.measurements.values()
     titles = [f"{each.blade} {each.scene}: {each.title}" for each in measurements for _ in each.points.values]
-    names = [number.name for number in numbers.spreads]
-    values, designs = (np.array([list(numbers.values(share).values()) for share in part]) for part in (cube, calibration.cube))
+    names = [number.name for number in calibration.spreads]
+    values, designs = (
+        np.array([list(drawn(calibration.spreads, calibration.nominal, share).values()) for share in part])
+        for part in (cube, calibration.cube)
+    )
     residuals, deviations = likelihood.residuals(cube[:1])
     misfit, elsewhere = residuals[:, 0] / deviations[:, 0], likelihood.elsewhere(cube)
     ends = np.quantile(cube, (0.025, 0.16, 0.84, 0.975), axis=0)

@@ -9,19 +9,7 @@ from r37core.config.blade_sections import Degrees, GaugeEntry
 from r37core.config.section import ExtensionSection, FileName, LeftOut, Name, Rpm, Section, Speed, left_out, or_section, refused
 from r37core.config.spread import Percent, Spreads, Width
 
-from .points import (
-    HALF_PEAK_TO_PEAK,
-    LEADING_EDGE,
-    NORMAL,
-    ORDER,
-    RADIAL,
-    RMS,
-    STRAIN,
-    TANGENTIAL,
-    TIP_TIMING,
-    TRAILING_EDGE,
-    WORN_DEPTH,
-)
+from .points import STRAIN, TIP_TIMING, WORN_DEPTH
 
 ASKED = "?"
 """Column that is answered with what the header has."""
@@ -33,16 +21,16 @@ class MeasurementSection(Section):
     file: FileName = Field(description="CSV with a header that has units: `speed_rpm`, `amplitude (um)`")
     blade: Name = Field(description="Blade that is run")
     scene: Name = Field(description="Scene that is run")
-    quantity: Literal[(NORMAL, TANGENTIAL, RADIAL, STRAIN, TIP_TIMING, WORN_DEPTH)] = Field(  # type: ignore[valid-type]
+    quantity: Literal[
+        "displacement_normal", "displacement_tangential", "displacement_radial", "strain", "tip_timing", "worn_depth"
+    ] = Field(
         description="What was measured: a displacement of the tip, strain of a gauge, displacement by tip timing, or worn depth"
     )
-    statistic: Literal[(RMS, HALF_PEAK_TO_PEAK, ORDER)] = Field(  # type: ignore[valid-type]
-        default=RMS, description="Statistic of the values; of a time signal amplitudes of its engine orders"
+    statistic: Literal["rms", "half_peak_to_peak", "order"] = Field(
+        default="rms", description="Statistic of the values; of a time signal amplitudes of its engine orders"
     )
     engine_order: Annotated[int, Field(ge=1, le=1000)] | LeftOut = left_out("Engine order, with statistic: order")
-    tip_point: Literal[(LEADING_EDGE, TRAILING_EDGE)] = Field(  # type: ignore[valid-type]
-        default=LEADING_EDGE, description="End of the tip"
-    )
+    tip_point: Literal["leading_edge", "trailing_edge"] = Field(default="leading_edge", description="End of the tip")
     gauge: or_section(Name, GaugeEntry) | LeftOut = left_out(  # type: ignore[valid-type]
         "Gauge of a strain: its place, or its name under signals.gauges"
     )
@@ -59,15 +47,14 @@ class MeasurementSection(Section):
     limit: Width | LeftOut = left_out("Limit of first_above in SI units")
 
     def _check(self) -> None:
-        needs = {"gauge": self.quantity == STRAIN, "probe_deg": self.quantity == TIP_TIMING}
-        needs["engine_order"] = self.statistic == ORDER
-        for key, needed in needs.items():
-            if (getattr(self, key) is not None) != needed:
-                owner = f"statistic {self.statistic}" if key == "engine_order" else self.quantity
+        statistic = f"statistic {self.statistic}"
+        needs = {"gauge": (self.quantity, STRAIN), "probe_deg": (self.quantity, TIP_TIMING)}
+        for key, (owner, needing) in (needs | {"engine_order": (statistic, "statistic order")}).items():
+            if (getattr(self, key) is not None) != (needed := owner == needing):
                 joint, allowed = ("without", "beside it") if needed else ("with", "left out")
                 raise refused((key,), f"{owner} {joint} {key}", f"{key} {allowed}")
-        if self.quantity in (TIP_TIMING, WORN_DEPTH) and self.statistic == ORDER:
-            raise refused(("statistic",), f"{ORDER} of {self.quantity}", "another statistic")
+        if self.quantity in (TIP_TIMING, WORN_DEPTH) and self.statistic == "order":
+            raise refused(("statistic",), f"order of {self.quantity}", "another statistic")
         if (self.limit is None) == (self.speed_of == "first_above"):
             raise refused(("limit",), f"{self.speed_of} {'without' if self.limit is None else 'with'} a limit", "both or none")
         if self.speed_rad_s is not None and self.speed_rpm is not None:

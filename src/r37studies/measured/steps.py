@@ -19,10 +19,10 @@ from r37core.results.table_file import write_table
 from r37core.sweep.forks import forked_results
 from r37core.time_integration.integration_choice import IntegrationChoice
 
-from .calibration import Calibration, Numbers
+from .calibration import Calibration
 from .calibration_plan import Calibrated
 from .comparison import compared
-from .evaluation import Evaluation, observed_blade
+from .evaluation import observed_blade, simulate
 from .measurement_plan import Measured
 from .points import Measurement
 from .posterior import calibrated_scenes, calibration_dataset, number_table
@@ -75,9 +75,8 @@ def calibrate(input: Any, output: Any, params: Any) -> None:
         named, own = Named(**dict(zip(columns, files, strict=True))), measured.pair_measurements(pair)
         blades[pair] = observed_blade(named, own, choice, tip_line, folder)
     every = {name: each for blade in blades.values() for name, each in blade.measurements.items()}
-    numbers = Numbers(calibrated.spreads, calibrated.nominal, calibrated.section.seed)
-    calibration = Calibration(every, numbers, run_all)
-    calibration.run(calibrated.budget, Evaluation(settings, blades, folder, run_all).simulate, JOB_NEWS.info)
+    calibration = Calibration(every, calibrated.spreads, calibrated.nominal, calibrated.section.seed, run_all)
+    calibration.run(calibrated.budget, partial(simulate, settings, blades, folder, run_all), JOB_NEWS.info)
     designs = json.dumps(to_plain([calibration.cube, [part.tolist() for part in calibration.simulated]]))
     digest = hashlib.sha256(designs.encode()).hexdigest()[:32]
     dataset = calibration_dataset(calibration, calibrated.section.draws)
