@@ -5,7 +5,6 @@ import sys
 from types import SimpleNamespace
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 
@@ -30,6 +29,11 @@ def written(folder, *rows, columns="", time=1000.0):
     return folder
 
 
+def last_lines(folder, *rows, **columns):
+    """Last lines of a run with these interactions."""
+    return closing_lines(written(folder, *rows, **columns), 400.0, 500.0)
+
+
 def test_found_where_and_how_long(tmp_path):
     assert closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0)[1] == f"look at {tmp_path}/summary.csv"
     (tmp_path / "explorer.html").touch()
@@ -46,40 +50,39 @@ def test_found_where_and_how_long(tmp_path):
     assert took == "took 13 min 30 s"
     for seconds, text in {59.4: "59 s", 12_345.0: "3 h 25 min"}.items():
         assert closing_lines(written(tmp_path), 0.0, seconds)[2] == f"took {text}"
-    assert "(1B/7)" in closing_lines(written(tmp_path, ROWS[0]), 400.0, 500.0)[0]
+    assert "(1B/7)" in last_lines(tmp_path, ROWS[0])[0]
     # a combination, at a peak that two speeds show
     rows = [f"Fan,bare,7-5,6,0.7,1e+09,1.1,470,{note}" for note in ("not resolved: one or two speeds", "")]
-    said = closing_lines(written(tmp_path, *rows, columns=",note"), 400.0, 500.0)[0]
+    said = last_lines(tmp_path, *rows, columns=",note")[0]
     assert "2 of them above yield in most revolutions, 0 in some, 1 not resolved, as one" in said and "(7-5/6)" in said
 
 
 def test_more_columns_say_more(tmp_path):
     """None above yield, the linings that are worn through, and the digits that a range bears."""
-    said = closing_lines(written(tmp_path, ROWS[2]), 0.0, 1.0)[0]
+    said = last_lines(tmp_path, ROWS[2])[0]
     assert said == (
         "found 1 interaction, none of them above yield in any later revolution; "
         "the largest stress 1.00 GPa, 0.7 times yield, Ref in direct at 1344 rad/s (1T/9)"
     )
-    assert closing_lines(written(tmp_path, ROWS[3]), 0.0, 1.0)[0] == "found 1 interaction"
+    assert last_lines(tmp_path, ROWS[3])[0] == "found 1 interaction"
     # a few revolutions are said, and the worst is that of the largest share of its own yield
     few = "Fan,bare,,2,0.0005,9e8,1.2,500"
-    said = closing_lines(written(tmp_path, few, "Ref,bare,,2,0,1e9,0.7,500"), 0.0, 1.0)[0]
+    said = last_lines(tmp_path, few, "Ref,bare,,2,0,1e9,0.7,500")[0]
     assert "0 of them above yield in most revolutions, 1 in some; the largest stress 0.90 GPa, 1.2 times yield, Fan" in said
     assert said.endswith("above yield in up to 1% of the revolutions")
     rows = [f"{row},{share}" for row, share in zip(ROWS, ("0.2", "0", "", ""), strict=True)]
-    said = closing_lines(written(tmp_path, *rows, columns=",worn_through_share"), 0.0, 1.0)[0]
+    said = last_lines(tmp_path, *rows, columns=",worn_through_share")[0]
     assert " in most revolutions, 1 in some, 1 with the lining worn through to the casing; the largest" in said
     columns = ",largest_stress_pa_low,largest_stress_pa_median,largest_stress_pa_high"
     for ends, said in ((",2.02e9,8.6e9,1.41e10", "9 GPa (2 to 14 in nine tenths of the members)"), (",,,", "8.56 GPa")):
-        folder = written(tmp_path, ROWS[0] + ends, columns=columns)
-        assert f"the largest stress {said}, 6.2 times yield, Ref" in closing_lines(folder, 400.0, 500.0)[0]
+        assert f"the largest stress {said}, 6.2 times yield, Ref" in last_lines(tmp_path, ROWS[0] + ends, columns=columns)[0]
 
 
 def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
     head = "blade,scene,rank,length_most_revolutions_rad_s,length_most_revolutions_scatter_rad_s,largest_gap_rad_s\n"
     rows = ("S100,lined,1,13.2,,20\n", "Ref,lined,2,70.6,,20\n", "Ref,direct,1,47.1,7.6,10\n", "S100,direct,2,854.2,21.1,10\n")
     (tmp_path / "ranking.csv").write_text(head + "".join(rows))
-    lined, direct, missed = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:4]
+    lined, direct, missed = last_lines(tmp_path, *ROWS)[1:4]
     assert lined.startswith(
         "lined: S100 is above yield in most revolutions at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); "
     )
@@ -90,7 +93,7 @@ def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
     # those that share a rank cannot be told apart, and are all named
     rows = ["A,x,1,40,6,0", "B,x,1,45,6,0", "A,y,1,0,,0", "B,y,1,5,,0", "C,y,3,9,,0", *(f"D{n},z,1,0,,0" for n in range(12))]
     (tmp_path / "ranking.csv").write_text(head + "\n".join(rows) + "\n")
-    x, y, z = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
+    x, y, z = last_lines(tmp_path, *ROWS)[1:-2]
     assert x.startswith("x: A and B cannot be ranked (above yield in most revolutions over 40 to 45 rad/s); ")
     assert y.startswith(
         "y: A and B are above yield in most revolutions at the fewest speeds (0 to 5 rad/s), C at the most (9 rad/s); "
@@ -106,7 +109,7 @@ def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     points += "Ref,y,1,{0},1,47,1,1300,47\nA,y,2,{0},1,130,2,900,100\nS100,y,3,{0},3,854.2,4,900,800\n"
     points = points.format('"8 points, linear"')
     (tmp_path / "ranking.csv").write_text(head + points)
-    lined, bare, over, contact = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
+    lined, bare, over, contact = last_lines(tmp_path, *ROWS)[1:-2]
     assert lined.startswith("8 points, linear: x: S100 is above yield") and over.startswith(
         "8 points, linear: over both scenes"
     )
@@ -116,11 +119,11 @@ def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     assert contact == ("the ranking is of contact on points; a decision needs structure: { boundary: { contact: patches } }")
     patches = 'Mine,x,1,"patches, {0}",1,5,1,900,5\nMine,y,1,"patches, {0}",1,5,1,900,5\n'
     (tmp_path / "ranking.csv").write_text(head + points + patches.format("linear"))
-    contact = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[-3]
+    contact = last_lines(tmp_path, *ROWS)[-3]
     among = "(8 points, linear: S100, A, Ref; patches, linear: Mine)"
     assert contact.startswith(f"ranks are among blades of the same contact {among}; structure: {{ boundary: {{")
     (tmp_path / "ranking.csv").write_text(head + points + patches.format("quadratic"))
-    assert "structure: { kinematics: quadratic, boundary: {" in closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[-3]
+    assert "structure: { kinematics: quadratic, boundary: {" in last_lines(tmp_path, *ROWS)[-3]
 
 
 def test_runs_that_diverged_are_counted(tmp_path):
@@ -128,12 +131,12 @@ def test_runs_that_diverged_are_counted(tmp_path):
     for status, said in (([0, 0, 2], ""), ([1, 1, 2], "; 2 of 2 runs diverged"), ([0, 1, 0], "; 1 of 3 runs diverged")):
         runs = _runs(status, [[[1.0, np.nan, np.nan]]], ["direct"])
         runs.to_netcdf(tmp_path / "rms.nc")
-        first, *remarks = closing_lines(written(tmp_path), 0.0, 1.0)
+        first, *remarks = last_lines(tmp_path)
         assert first == f"found no interaction{said}"
         # the cause of a linear blade's, and what bounds it
         assert said == "" or remarks[0].startswith("Ref in direct: runs diverged, as friction can feed a linear motion")
         runs.assign(peak_share_of_height=(("blade", "scene", "speed"), [[[0.1, 0.1, 0.1]]])).to_netcdf(tmp_path / "rms.nc")
-        assert not any("friction" in line for line in closing_lines(written(tmp_path), 0.0, 1.0))
+        assert not any("friction" in line for line in last_lines(tmp_path))
 
 
 def _runs(status, force, scenes):
@@ -146,7 +149,7 @@ def test_scenes_that_touch_nothing_are_named(tmp_path):
     """A single force is enough to touch; a scene without any run is none that touches nothing."""
     forces = [[[0.0, 0.0, np.nan], [0.0, 2.0, np.nan], [np.nan] * 3]]
     _runs([0, 0, 2], forces, ["far", "near", "none"]).to_netcdf(tmp_path / "rms.nc")
-    said = closing_lines(written(tmp_path), 0.0, 1.0)
+    said = last_lines(tmp_path)
     assert len(said) == 4 and said[1].startswith("Ref in far: the tip touched nothing at any speed, ")
 
 
@@ -155,7 +158,7 @@ def test_motions_beyond_the_second_order_are_told(tmp_path):
     for shares, said in (([np.nan, 0.1, 0.2], 3), ([0.1, 0.3, 0.25], 4)):
         limits = {"peak_share_of_height": (dims, [[shares]]), "share_of_height_limit": (dims, [[[0.2, 0.2, 0.26]]])}
         runs.assign(limits).to_netcdf(tmp_path / "rms.nc")
-        lines = closing_lines(written(tmp_path), 0.0, 1.0)
+        lines = last_lines(tmp_path)
         assert len(lines) == said
     assert lines[1].startswith("beyond the model's limits in 1 run: the tip moves by up to 0.3 of the blade's height; ")
 
@@ -173,7 +176,7 @@ def test_linings_are_compared_with_the_tips_of_the_blades():
 
 def test_nothing_found_and_nothing_new(tmp_path):
     assert closing_lines(tmp_path, 0.0, 1.0) == []
-    assert closing_lines(written(tmp_path), 0.0, 1.0)[0] == "found no interaction"
+    assert last_lines(tmp_path)[0] == "found no interaction"
     assert closing_lines(written(tmp_path), 2000.0, 2001.0) == []
 
 
@@ -216,11 +219,3 @@ def test_an_extension_s_own_word(line, monkeypatch):
 def test_the_words_of_the_shipped_extensions_are_there(extension):
     if extension.closing:
         assert callable(function_named(extension.closing))
-
-
-def table(folder, name, **columns):
-    pd.DataFrame(columns).to_csv(folder / name, index=False)
-
-
-WHERE = {"blade": ["Ref", "NA"], "scene": ["lined", "lined"]}
-STRESS = {"largest_stress_pa": [2.314e9, np.nan]}

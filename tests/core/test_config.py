@@ -135,26 +135,6 @@ def test_schemas_are_fresh(root):
     assert {file.name: file.read_text() for file in folder.iterdir()} == schemas()
 
 
-def line_of(file, text):
-    return next(number for number, line in enumerate(file.read_text().splitlines(), 1) if text in line)
-
-
-@pytest.mark.parametrize(
-    ("name", "old", "new", "key"),
-    [
-        ("config", "# nodes: 12", "nodes: 0", r"structure\.boundary\.nodes: found 0; allowed: integer, at least 1"),
-        ("config", "modes: 10", "moods: 10", r"campbell: found unknown key moods; allowed keys: .*\(did you mean modes\?\)"),
-        ("scenes", "thickness_m: 0.005", "thickness_m: 5 mm", r"abradable\.lining\.thickness_m: found '5 mm'; allowed: number"),
-        ("fidelity", "mesh: { nodes: 5000,", "mesh: { nodes: 5e3,", r"draft\.mesh\.nodes: found 5000\.0; allowed: integer"),
-    ],
-)
-def test_messages_name_file_line_key_found_and_allowed(config_copy, name, old, new, key):
-    file = config_copy / f"config/{name}.yaml"
-    edit(file, old, new)
-    with pytest.raises(ConfigError, match=rf"^config/{name}\.yaml:{line_of(file, new)}: {key}"):
-        read_settings(config_copy)
-
-
 def test_a_message_points_into_the_file_that_said_it_and_changes_keep_what_they_do_not_name(config_copy):
     (config_copy / "mine.yaml").write_text("# mine\n\nstructure:\n  boundary:\n    nodes: 0\n")
     with pytest.raises(ConfigError, match=r"^mine\.yaml:5: structure\.boundary\.nodes: found 0"):

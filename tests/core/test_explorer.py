@@ -87,8 +87,20 @@ def page(datasets, tmp_path_factory):
         assert page.problems == []
 
 
+@pytest.fixture
+def shown(page, tmp_path):
+    """Opens a page of other datasets beside the first one; further arguments as of `beside`."""
+    return lambda datasets, *more, **changes: beside(
+        page, explorer_contents(datasets) | changes.pop("contents", {}), tmp_path / "explorer.html", *more, **changes
+    )
+
+
+CHOSEN = {"blade": "Ref", "scene": "abradable", "quantity": "rms_normal", "speed": "900", "unit": "rad/s", "all": "false"}
+
+
 def choose(page, **state):
-    words = "&".join(f"{name}={value}" for name, value in (state | {"asked": "yes"}).items())
+    """Choose CHOSEN but for what is given."""
+    words = "&".join(f"{name}={value}" for name, value in (CHOSEN | state | {"asked": "yes"}).items())
     page.evaluate("words => { window.location.hash = words; }", words)
     # once all is drawn the page writes its state there, and no more than that
     page.wait_for_function("!window.location.hash.includes('asked')")
@@ -118,7 +130,7 @@ def hover(page, plot, curve, point):
 
 
 def test_the_page_loads_without_an_error(page):
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
+    choose(page)
     assert page.problems == []
     assert [one["name"] for one in traces(page, "response")] == ["abradable", "direct", "direct diverged"]
     assert page.title() == "r37 <trial>"
@@ -127,21 +139,21 @@ def test_the_page_loads_without_an_error(page):
 
 
 def test_hover_says_what_the_dataset_has(page, datasets):
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
+    choose(page)
     place = {"blade": "Ref", "scene": "abradable", "speed": 1000.25, "tip_point": "leading_edge"}
     value = 1e3 * float(datasets["rms"]["rms_normal"].sel(place))
     text = hover(page, "response", 0, 1)
     assert all(said in text for said in ("1000.3 rad/s", "9551.7 rpm", f"{float(f'{value:.5g}'):g} mm"[:7], "completed"))
-    choose(page, blade="Ref", scene="abradable", quantity="max_von_mises_ever", speed="900", unit="rad/s", all="false")
+    choose(page, quantity="max_von_mises_ever")
     value = 1e-6 * float(datasets["stress"]["max_von_mises_ever"].sel(blade="Ref", scene="abradable", speed=1100.0))
     assert f"{float(f'{value:.5g}'):g} MPa" in hover(page, "response", 0, 2)
     assert "x < 0.197 m" in page.text_content("#response .infolayer")
-    choose(page, blade="Ref", scene="abradable", quantity="max_von_mises_ever", speed="900", unit="rad/s", all="true")
+    choose(page, quantity="max_von_mises_ever", all="true")
     assert "regions of each blade" in page.text_content("#response .infolayer")
 
 
 def test_choices_change_what_is_drawn(page, datasets):
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
+    choose(page)
     ref = traces(page, "response")
     page.select_option("#blade", "L<50>")
     other = traces(page, "response")
@@ -165,9 +177,9 @@ def test_choices_change_what_is_drawn(page, datasets):
     assert "1200 rad/s" in page.text_content("#now")
 
 
-def test_it_opens_at_the_worst_run(page, datasets, tmp_path):
+def test_it_opens_at_the_worst_run(shown, datasets):
     """To have diverged is worse than any number, then the largest stress of all scenes counts, or the motion without any."""
-    with beside(page, explorer_contents(datasets), tmp_path / "explorer.html") as other:
+    with shown(datasets) as other:
         now = "Ref, direct, 1200 rad/s, 11459 rpm, diverged: beyond all that has a number"
         assert other.text_content("#now").startswith(now)
     rms = datasets["rms"].copy(deep=True)
@@ -175,21 +187,17 @@ def test_it_opens_at_the_worst_run(page, datasets, tmp_path):
     rms["rms_normal"].loc[{"blade": "L<50>", "scene": "direct", "speed": 900.0}] = 1.0
     stress = datasets["stress"].copy(deep=True)
     stress["max_von_mises_ever"].loc[{"blade": "L<50>", "scene": "abradable", "speed": 1000.25}] = 4.1e10
-    contents = explorer_contents(datasets | {"rms": rms, "stress": stress})
     for place, speed in (("", "1000.3 rad/s"), ("#speed=1200", "1200 rad/s")):
-        with beside(page, contents, tmp_path / "explorer.html", place=place) as other:
+        with shown(datasets | {"rms": rms, "stress": stress}, place=place) as other:
             assert other.text_content("#now").startswith(f"L<50>, abradable, {speed}")
-    contents = explorer_contents({"rms": rms, "campbell": datasets["campbell"]})
-    with beside(page, contents, tmp_path / "explorer.html") as other:
+    with shown({"rms": rms, "campbell": datasets["campbell"]}) as other:
         assert other.text_content("#now").startswith("L<50>, direct, 900 rad/s")
 
 
 @pytest.mark.parametrize("width", [390, 1400])
-def test_it_fits_the_screen(page, datasets, tmp_path, width):
+def test_it_fits_the_screen(shown, datasets, width):
     """Without scrolling sideways, and with plotly's buttons clear of what is drawn."""
-    contents = explorer_contents(datasets)
-    place = "#scene=abradable&quantity=share_of_time_in_contact&all=true"
-    with beside(page, contents, tmp_path / "explorer.html", (width, 844), place) as other:
+    with shown(datasets, (width, 844), "#scene=abradable&quantity=share_of_time_in_contact&all=true") as other:
         assert other.evaluate("document.documentElement.scrollWidth") <= width
         for name in ("campbell", "response", "spectrum", "wear", "stress"):
             buttons, plot = (other.locator(f"#{name} {part}").first.bounding_box() for part in (".modebar", ".main-svg"))
@@ -204,9 +212,11 @@ def test_it_fits_the_screen(page, datasets, tmp_path, width):
         other.wait_for_function("document.querySelector('#spectrum .main-svg').clientWidth > 0.9 * innerWidth")
 
 
-def test_a_finger_that_moves_over_a_plot_scrolls_the_page(page, datasets, tmp_path):
-    phone = {"is_mobile": True, "has_touch": True}
-    with beside(page, explorer_contents(datasets), tmp_path / "explorer.html", (390, 844), **phone) as other:
+def test_a_finger_has_room_and_scrolls_the_page_when_it_moves_over_a_plot(shown, datasets):
+    """On a phone: nothing runs over the side, and controls are large enough."""
+    with shown(datasets, (390, 844), is_mobile=True, has_touch=True) as other:
+        assert other.evaluate("document.documentElement.scrollWidth") == 390
+        assert min(one.bounding_box()["height"] for one in other.locator("#controls label:visible").all()) >= 44
         touches = other.context.new_cdp_session(other)
 
         def touch(kind, *heights):
@@ -222,12 +232,11 @@ def test_a_finger_that_moves_over_a_plot_scrolls_the_page(page, datasets, tmp_pa
         other.wait_for_function("scrollY > 100")
 
 
-def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(page, datasets, tmp_path):
+def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(shown, datasets):
     campbell = datasets["campbell"].isel(mode=[0] * 9).assign_coords(mode=["1B", "1T", "2B", *map(str, range(4, 10))])
     rising = xr.DataArray(500.0 * np.arange(1, 10), dims="mode") + 0.1 * campbell["speed"]
     campbell["frequency"] = rising.expand_dims(blade=BLADES)
-    contents = explorer_contents(datasets | {"campbell": campbell})
-    with beside(page, contents, tmp_path / "explorer.html") as other:
+    with shown(datasets | {"campbell": campbell}) as other:
         drawn = other.evaluate(
             "() => document.getElementById('campbell').data.slice(1, -1)"
             ".map(one => [one.name, (one.line || one.marker).color ?? one.marker.color])"
@@ -238,18 +247,17 @@ def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(page, d
         assert len({colour for _, colour in drawn}) == 6
 
 
-def test_engine_orders_end_at_the_border_with_their_numbers(page, datasets, tmp_path):
+def test_engine_orders_end_at_the_border_with_their_numbers(shown, datasets):
     """Also where the diagram is zoomed: each line from border to border, its number where it leaves."""
     campbell = datasets["campbell"].copy(deep=True)
     campbell["frequency"][:] = 600.0
-    contents = explorer_contents(datasets | {"campbell": campbell})
     drawn = (
         "() => { const { data } = document.getElementById('campbell');"
         " return [data[0], data.at(-1)].map(({ x, y, text }) => [x, y, text]); }"
     )
     numbers = "() => [...document.querySelectorAll('#campbell .textpoint')].map(one => one.textContent)"
     zoom = "Plotly.relayout('campbell', { 'xaxis.range': [1000, 1500], 'yaxis.range': [200, 400] })"
-    with beside(page, contents, tmp_path / "explorer.html") as other:
+    with shown(datasets | {"campbell": campbell}) as other:
         # 630 Hz are the top; order 2 is below it at 2000 rad/s, order 3 above
         (x, y, _), (at, height, text) = other.evaluate(drawn)
         assert x[1::3] == pytest.approx([2000.0, 630.0 * np.pi, 420.0 * np.pi])
@@ -267,16 +275,16 @@ def test_engine_orders_end_at_the_border_with_their_numbers(page, datasets, tmp_
         assert other.evaluate(drawn)[1][2] == other.evaluate(numbers) == ["1", "2"]
 
 
-def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets, tmp_path):
+def test_stress_above_yield_is_marked_as_outside_the_linear_model(shown, datasets):
     limits = datasets["stress"]["yield_stress"].copy()
     limits[0, 0] = 1e6
-    contents = explorer_contents(datasets | {"stress": datasets["stress"].assign(yield_stress=limits)})
-    outside = "above yield: outside the linear model"
-    with beside(page, contents, tmp_path / "explorer.html", place="#scene=abradable&speed=1000.25") as other:
-        stress = 1e-6 * float(datasets["stress"]["max_von_mises_ever"].sel(blade="Ref", scene="abradable", speed=1000.25))
-        share = 100 * float(
-            datasets["stress"]["share_of_revolutions_above_yield"].sel(blade="Ref", scene="abradable", speed=1000.25)
-        )
+    outside, of_run = (
+        "above yield: outside the linear model",
+        datasets["stress"].sel(blade="Ref", scene="abradable", speed=1000.25),
+    )
+    stress, share = 1e-6 * float(of_run["max_von_mises_ever"]), 100 * float(of_run["share_of_revolutions_above_yield"])
+    changed = datasets | {"stress": datasets["stress"].assign(yield_stress=limits)}
+    with shown(changed, place="#scene=abradable&speed=1000.25") as other:
         assert other.text_content("#now").endswith(f"in {share:g}% of the later revolutions, up to {stress:.5g} MPa, {outside}")
         shapes = other.evaluate("document.getElementById('response').layout.shapes")
         across = [(one["name"], one["y0"]) for one in shapes if one["x1"] == 1]
@@ -286,7 +294,7 @@ def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets
 
 
 def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
+    choose(page)
     shown = np.array(page.evaluate("document.getElementById('spectrum').data[0].z"), dtype=float)
     amplitude = datasets["spectrum"]["amplitude"].sel(blade="Ref", scene="abradable")
     starts = order_bins(amplitude["engine_order"].values)
@@ -296,15 +304,15 @@ def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
     assert "mm" in page.evaluate("document.getElementById('spectrum').data[0].text[3][1]")
 
 
-def test_tables_and_figures_are_linked_where_they_belong(page, datasets, root, tmp_path):
+def test_tables_and_figures_are_linked_where_they_belong(page, shown, datasets, root):
     """Those of the chosen blade and scene, and those of several; a page without any has no line of them."""
     assert page.text_content("#links") == ""
     scenes = command_line_document({"abradable": {"rotor": {"blades": 2}, "results": ["stress"]}})
     search = {"blade": "Ref", "variables": {"thickness_percent": [90, 110]}, "objectives": {"direct": {"scenes": ["direct"]}}}
     changes = {"blades": ["Ref", "S50"], "scenes": ["abradable", "direct"], "fidelity": "draft", "search": search}
     settings = load_settings(command_line_document(changes), root, scenes_above=scenes)
-    contents = explorer_contents(datasets) | {"links": links(Sweep(settings))}
-    with beside(page, contents, tmp_path / "explorer.html", place="#blade=Ref&scene=abradable&speed=900") as other:
+    place = "#blade=Ref&scene=abradable&speed=900"
+    with shown(datasets, contents={"links": links(Sweep(settings))}, place=place) as other:
         found = other.locator("#links a")
         names = ("interactions", "comparison_abradable", "ranking", "rotor_Ref__abradable", "search_designs")
         files = ["summary.csv", "ranking.csv", *(f"figures/{name}.png" for name in names)]
@@ -315,10 +323,10 @@ def test_tables_and_figures_are_linked_where_they_belong(page, datasets, root, t
         assert found.all_text_contents() == [*titles, "search: designs"]
 
 
-def test_a_diverged_run_is_marked(page, datasets, tmp_path):
+def test_a_diverged_run_is_marked(page, shown, datasets):
     """Above all that has a number, by its scene's or its blade's name; in a map, and where every run of a scene is one."""
     for every, name in (("false", "direct diverged"), ("true", "Ref diverged")):
-        choose(page, blade="Ref", scene="direct", quantity="rms_normal", speed="1200", unit="rad/s", all=every)
+        choose(page, scene="direct", speed="1200", all=every)
         drawn = {one["name"]: one for one in traces(page, "response")}
         finite = [y for other, one in drawn.items() if other != name for y in one["y"] if y is not None]
         assert drawn[name]["x"] == [1200] and drawn[name]["y"][0] > max(finite)
@@ -327,27 +335,21 @@ def test_a_diverged_run_is_marked(page, datasets, tmp_path):
     _, crosses = traces(page, "spectrum")
     assert crosses["x"] == [1200] and crosses["y"] == [4.0] and crosses["text"][0].endswith("<br>diverged")
     # a quantity that the scene does not compute has no runs at all
-    choose(page, blade="Ref", scene="direct", quantity="max_wear", speed="1200", unit="rad/s", all="false")
+    choose(page, scene="direct", quantity="max_wear", speed="1200")
     assert [one["name"] for one in traces(page, "response")] == ["abradable"]
     made, everywhere = {kind: data.copy(deep=True) for kind, data in datasets.items()}, {"blade": "L<50>", "scene": "direct"}
     made["rms"]["status"].loc[everywhere] = RunStatus.DIVERGED
-    for kind, name in (
-        ("rms", "rms_normal"),
-        ("rms", "rms_tangential"),
-        ("rms", "peak_normal"),
-        ("stress", "max_von_mises_ever"),
-    ):
-        made[kind][name].loc[everywhere] = np.nan
-    contents = explorer_contents(made)
-    with beside(page, contents, tmp_path / "explorer.html", place="#blade=L%3C50%3E&scene=direct") as other:
+    for name in ("rms_normal", "rms_tangential", "peak_normal"):
+        made["rms"][name].loc[everywhere] = np.nan
+    made["stress"]["max_von_mises_ever"].loc[everywhere] = np.nan
+    with shown(made, place="#blade=L%3C50%3E&scene=direct") as other:
         drawn = {one["name"]: one for one in traces(other, "response")}
         assert drawn["direct diverged"]["x"] == SPEEDS.tolist()
 
 
-def test_a_lining_that_is_worn_through_is_marked(page, datasets, tmp_path):
+def test_a_lining_that_is_worn_through_is_marked(shown, datasets):
     """In the map, and as a quantity of its own."""
-    place = "#scene=abradable&quantity=worn_through_share"
-    with beside(page, explorer_contents(datasets), tmp_path / "explorer.html", place=place) as other:
+    with shown(datasets, place="#scene=abradable&quantity=worn_through_share") as other:
         _, triangles = traces(other, "wear")
         assert (triangles["name"], triangles["x"]) == ("worn through", [1200])
         assert triangles["text"][0].endswith("worn through to the casing on 12.5% of the circumference")
@@ -356,7 +358,7 @@ def test_a_lining_that_is_worn_through_is_marked(page, datasets, tmp_path):
 
 def test_keys_and_clicks_move_the_speed(page):
     """All cursors follow, without drawing the plots again."""
-    choose(page, blade="Ref", scene="abradable", speed="900", unit="rad/s", all="false")
+    choose(page)
     places = (
         "['campbell', 'response', 'spectrum', 'wear'].map(name => "
         "[...document.querySelectorAll(`#${name} .shapelayer path`)].map(path => path.getAttribute('d')))"
@@ -377,23 +379,6 @@ def test_keys_and_clicks_move_the_speed(page):
     assert page.input_value("#speed") == "11459"
 
 
-def judged(*verdicts):
-    """Panel of the requirements with rows: blade, scene, verdict on the length above yield, of which 24 rad/s are allowed."""
-    names = ("blade", "scene", "verdict")
-    numbers = {"requirement": "above_yield", "limit": 24.0, "value": 1.0, "margin": 1.0, "unit": "rad/s"}
-    numbers |= {"certainty": "", "note": "", "from_rad_s": None, "to_rad_s": None}
-    rows = [dict(zip(names, row, strict=True)) | numbers for row in verdicts]
-    return {"requirements": {"pairs": [], "requirements": rows}}
-
-
-def test_a_finger_has_room(page, datasets, tmp_path):
-    """On a phone: nothing runs over the side, and controls are large enough."""
-    phone = {"is_mobile": True, "has_touch": True}
-    with beside(page, explorer_contents(datasets), tmp_path / "explorer.html", (390, 844), **phone) as other:
-        assert other.evaluate("document.documentElement.scrollWidth") == 390
-        assert min(one.bounding_box()["height"] for one in other.locator("#controls label:visible").all()) >= 44
-
-
 def brightness(colour):
     """Relative luminance of rgb(...), 0 to 1."""
     values = [int(value) / 255 for value in colour.removeprefix("rgb(").rstrip(")").split(",")[:3]]
@@ -401,10 +386,9 @@ def brightness(colour):
     return float(np.dot([0.2126, 0.7152, 0.0722], linear))
 
 
-def test_it_is_dark_where_that_is_preferred(page, datasets, tmp_path):
+def test_it_is_dark_where_that_is_preferred(shown, datasets):
     """Page and plots, with contrast; and changes with the preference."""
-    contents = explorer_contents(datasets)
-    with beside(page, contents, tmp_path / "explorer.html", color_scheme="dark") as other:
+    with shown(datasets, color_scheme="dark") as other:
         styles = "[...document.querySelectorAll(place)].map(one => getComputedStyle(one)[name])"
 
         def of(place, name):
