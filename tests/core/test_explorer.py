@@ -113,6 +113,11 @@ def traces(page, plot):
     )
 
 
+def curves(page):
+    """Names of the curves of the response."""
+    return [one["name"] for one in traces(page, "response")]
+
+
 def hover(page, plot, curve, point):
     """What stands at a point, once it does: plotly leaves time between two of them."""
     at = [plot, curve, point]
@@ -132,7 +137,7 @@ def hover(page, plot, curve, point):
 def test_the_page_loads_without_an_error(page):
     choose(page)
     assert page.problems == []
-    assert [one["name"] for one in traces(page, "response")] == ["abradable", "direct", "direct diverged"]
+    assert curves(page) == ["abradable", "direct", "direct diverged"]
     assert page.title() == "r37 <trial>"
     assert page.locator(".js-plotly-plot").count() == 5
     assert page.is_visible("#stress")
@@ -165,7 +170,7 @@ def test_choices_change_what_is_drawn(page, datasets):
     page.select_option("#quantity", "max_von_mises_ever")
     assert traces(page, "response") != other
     page.check("#all")
-    assert [one["name"] for one in traces(page, "response")] == BLADES
+    assert curves(page) == BLADES
     assert page.locator("#wear .js-plotly-plot, #wear.js-plotly-plot").count() == 1
     page.select_option("#scene", "direct")
     assert page.is_hidden("section:has(> #wear)")
@@ -336,7 +341,7 @@ def test_a_diverged_run_is_marked(page, shown, datasets):
     assert crosses["x"] == [1200] and crosses["y"] == [4.0] and crosses["text"][0].endswith("<br>diverged")
     # a quantity that the scene does not compute has no runs at all
     choose(page, scene="direct", quantity="max_wear", speed="1200")
-    assert [one["name"] for one in traces(page, "response")] == ["abradable"]
+    assert curves(page) == ["abradable"]
     made, everywhere = {kind: data.copy(deep=True) for kind, data in datasets.items()}, {"blade": "L<50>", "scene": "direct"}
     made["rms"]["status"].loc[everywhere] = RunStatus.DIVERGED
     for name in ("rms_normal", "rms_tangential", "peak_normal"):

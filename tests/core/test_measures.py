@@ -6,6 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
+from test_exceedance import response as response_above_yield
 
 from r37core.base.rounding import rounded_to, rounded_up
 from r37core.base.units import RPM
@@ -75,12 +76,6 @@ def test_the_largest_stress_and_the_first_yield_of_a_run():
     assert np.isnan(measures.first_yield(history, 9.0))
 
 
-def exceeding(speeds, shares, lined=1.0):
-    content = {"share_of_revolutions_above_yield": ("speed", shares), "status": ("speed", np.zeros(len(speeds), int))}
-    content |= {"max_von_mises_median": ("speed", 2.0 * shares), "yield_stress": 1.0, "lined": lined}
-    return xr.Dataset(content, {"speed": speeds})
-
-
 def test_the_integral_inside_is_that_of_straight_lines():
     """A triangle from 1000 over 1100 to 1200 rad/s, of which the range has 1050 to 1150: 75 of 100 rad/s."""
     speeds, shares = np.array([900.0, 1000.0, 1100.0, 1200.0, 1300.0]), np.array([0.0, 0.0, 1.0, 0.0, 0.0])
@@ -110,19 +105,21 @@ def test_dwells_weigh_and_the_rest_is_even():
 def test_measures_inside():
     speeds = np.arange(1000.0, 1301.0, 10.0)
     shares = ((speeds >= 1100.0) & (speeds <= 1200.0)).astype(float)
-    inside = operating_measures(exceeding(speeds, shares), OperatingRange(1000.0, 1150.0))
+    inside = operating_measures(response_above_yield(speeds, shares, 0.0 * speeds, lined=1), OperatingRange(1000.0, 1150.0))
     # from 1095, half of the way between two speeds
     assert inside["length_most_revolutions_operating_rad_s"] == pytest.approx(55.0)
     assert inside["exceedance_integral_operating_rad_s"] == pytest.approx(55.0)
     assert inside["length_most_revolutions_operating_within_rad_s"] == 10.0
     assert np.isnan(inside["exceedance_integral_operating_scatter_rad_s"])
-    bare = operating_measures(exceeding(speeds, 0.5 * shares + 0.1, 0.0), OperatingRange(1000.0, 1150.0))
+    bare = operating_measures(response_above_yield(speeds, 0.5 * shares + 0.1, 0.0 * speeds), OperatingRange(1000.0, 1150.0))
     assert bare["exceedance_integral_operating_scatter_rad_s"] > 0.0
 
 
 def test_what_is_not_run_over_the_whole_range_is_not_known():
     speeds = np.arange(1000.0, 1301.0, 10.0)
-    measures = operating_measures(exceeding(speeds, np.ones(len(speeds))), OperatingRange(990.0, 1150.0))
+    measures = operating_measures(
+        response_above_yield(speeds, np.ones(len(speeds)), 0.0 * speeds, lined=1), OperatingRange(990.0, 1150.0)
+    )
     assert set(measures) == set(names(OPERATING))
     assert np.isnan(list(measures.values())).all()
 

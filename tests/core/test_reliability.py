@@ -53,6 +53,16 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.fixture
+def disk(monkeypatch):
+    """Sets how many bytes are free."""
+
+    def has(free):
+        monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10 - free, free))
+
+    return has
+
+
 def fail(error, about=""):
     with pytest.raises(SystemExit), failures.reported("mesh", "a.log", about):
         print("working")
@@ -86,8 +96,8 @@ FULL_DISK = OSError(errno.ENOSPC, "No space left on device", "x.nc")
         (OutputFileError("a.nc: the disk is full"), 10, "a.nc: the disk is full (details in a.log)\n"),
     ],
 )
-def test_an_error_is_said_as_what_it_is(folder, capsys, monkeypatch, error, free, said):
-    monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10 - free, free))
+def test_an_error_is_said_as_what_it_is(folder, capsys, disk, error, free, said):
+    disk(free)
     fail(error)
     assert capsys.readouterr().err.startswith(f"rule mesh: {said}")
 
@@ -138,9 +148,9 @@ def test_a_file_that_may_not_be_as_large_is_one_line(tmp_path, write):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_file_that_a_full_disk_has_cut_is_none(tmp_path, monkeypatch):
+def test_a_file_that_a_full_disk_has_cut_is_none(tmp_path, disk):
     """As gmsh leaves it, without an error."""
-    monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10, 0))
+    disk(0)
     with (
         pytest.raises(OutputFileError, match=r"a\.msh: cannot be written: the disk is full"),
         atomic_write(tmp_path / "a.msh") as file,
@@ -161,9 +171,9 @@ def test_a_file_that_a_full_disk_has_cut_is_none(tmp_path, monkeypatch):
         (InputFileError("b.nc: no"), 10, InputFileError),
     ],
 )
-def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, outcome):
+def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, disk, error, free, outcome):
     """From every writer, and where r37 keeps structures; other errors are as they were."""
-    monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10 - free, free))
+    disk(free)
 
     def fails(*_):
         raise error
@@ -284,12 +294,12 @@ def test_a_refusal_names_no_files_of_ours():
     refused = snakemake_run.without_files(WorkflowError)
     with pytest.raises(WorkflowError) as shown, snakemake_run._refused(refused):
         raise ConfigError("config.yaml:3: speeds: found none")
-    text = format_exception_to_string(shown.value, {__file__: dict.fromkeys(range(2000), 1)})
-    assert text == "ConfigError:\nconfig.yaml:3: speeds: found none"
+    lines = {__file__: dict.fromkeys(range(2000), 1)}
+    assert format_exception_to_string(shown.value, lines) == "ConfigError:\nconfig.yaml:3: speeds: found none"
     # as it would without
     with pytest.raises(WorkflowError) as shown:
         raise WorkflowError("x")
-    assert __file__ in format_exception_to_string(shown.value, {__file__: dict.fromkeys(range(2000), 1)})
+    assert __file__ in format_exception_to_string(shown.value, lines)
 
 
 def test_a_file_that_cannot_be_planned_with_is_told_in_one_line(tmp_path, settings):

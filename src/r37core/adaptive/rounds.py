@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 from pathlib import Path
 
 import xarray as xr
@@ -47,18 +48,12 @@ def measure_members(yields: Sequence[float], speeds: Sequence[float], files: Ite
     (Pa) of each; `files`: member by member those of all speeds. Raises InputFileError for a file that cannot be read.
     """
     gave: dict[float, list[float]] = {speed: [] for speed in speeds}
-    every = iter(files)
-    for yield_stress in yields:
-        for speed in speeds:
-            run = read_speed(next(every))
-            edge = TIP_POINTS.index("leading_edge")
-            stress = (
-                float(run["max_von_mises_last_revolution"][0]) / yield_stress
-                if "max_von_mises_last_revolution" in run
-                else math.nan
-            )
-            curves = (float(run[f"rms_{name}"][edge]) for name in ("normal", "tangential"))
-            gave[speed] += [int(run["status"]), *curves, stress]
+    edge = TIP_POINTS.index("leading_edge")
+    for (yield_stress, speed), file in zip(product(yields, speeds), files, strict=True):
+        run = read_speed(file)
+        stress = float(run.get("max_von_mises_last_revolution", [math.nan])[0]) / yield_stress
+        curves = (float(run[f"rms_{name}"][edge]) for name in ("normal", "tangential"))
+        gave[speed] += [int(run["status"]), *curves, stress]
     return gave
 
 

@@ -169,10 +169,8 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
                 raise document.refusal(
                     (link, keys[0]), f"{keys[0]} with the {entry.key} of {first}", "another material, no other shape"
                 )
-        try:
+        with document.blamed((name, "material"), ValueError):
             material.check_units()
-        except ValueError as error:
-            raise document.error((name, "material"), str(error)) from None
         definition = _described(entry, first, root, document, check_sense)
         return BladeSettings(definition, material, contact, kinematics, regions)
     shift: dict[str, Any] = {}
@@ -186,10 +184,8 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     shape = _shape(entry, first, root, document, check_sense).replaced(name=name, **shift)
     for link in chain:
         shape = _changed(link, entries[link], shape, document)
-    try:
+    with document.blamed(place, BladeShapeError, before=f"blade {name}: "):
         check_sweep(shift.get("stacking") or (), shape.height)
-    except BladeShapeError as error:
-        raise document.error(place, f"blade {name}: {error}") from None
     return BladeSettings(shape, material, contact, kinematics, regions)
 
 
@@ -235,10 +231,8 @@ def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Docume
     if missing:
         raise document.error((chain[-1], "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
     made = si(MaterialSection(**material))
-    try:
+    with document.blamed((chain[-1], "material"), ValueError):
         made.check_strengths()
-    except ValueError as error:
-        raise document.error((chain[-1], "material"), str(error)) from None
     return made
 
 
@@ -250,10 +244,8 @@ def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> 
         with readable_table(value, (blade, key), document):
             rows = stacking_rows(stacking_table_rows(root / value, blade))
     else:
-        try:
+        with document.blamed((blade, key), BladeShapeError, before=f"blade {blade}: "):
             rows = stacking_rows([row.model_dump() for row in value])
-        except BladeShapeError as error:
-            raise document.error((blade, key), f"blade {blade}: {error}") from None
     return {"stacking": rows, "chordwise_sweep_angle": None}
 
 

@@ -1,6 +1,7 @@
 """A configuration file's content, several on top of each other, where each value stands, and bases of entries."""
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import reduce
 from pathlib import Path
@@ -78,6 +79,14 @@ class Document:
         shown = ".".join(single_line(str(step)) for step in named) or "top level"
         source = f" (given by '{place[0]}')" if place[:1] not in ((), path[:1]) else ""
         return ConfigError(f"{self.location(path)}: {shown}: {text}{source}")
+
+    @contextmanager
+    def blamed(self, path: KeyPath, *errors: type[Exception], before: str = "") -> Iterator[None]:
+        """Turn one of these errors within into that of the value at `path`, with the text `before` its own."""
+        try:
+            yield
+        except errors as error:
+            raise self.error(path, f"{before}{error}") from None
 
     def refusal(self, path: KeyPath, value: str, allowed: str) -> ConfigError:
         """The error of the value at `path`, with what was found and what is allowed."""

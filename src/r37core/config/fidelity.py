@@ -141,8 +141,8 @@ def cheapest_level(levels: Mapping[str, Level], tolerance: float, point_contact:
     """The cheapest level within the tolerance, for contact `point_contact` or not; ConfigError where there is none."""
     measured = {name: level.measured for name, level in levels.items() if level.measured}
     errors = {name: error for name, measure in measured.items() if (error := measure.error_of(point_contact)) is not None}
-    chosen = recommended_level(errors, {name: measure.cpu_s_per_run for name, measure in measured.items()}, tolerance)
-    if chosen is None:
+    fitting = [level for level, error in errors.items() if error <= tolerance]
+    if not fitting:
         known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
         raise documents.config.error(
             ("tolerance",),
@@ -150,10 +150,4 @@ def cheapest_level(levels: Mapping[str, Level], tolerance: float, point_contact:
             "accept more, or name a level under fidelity"
             + (", or take structure.boundary.contact: patches" if point_contact else ""),
         )
-    return chosen
-
-
-def recommended_level(errors: Mapping[str, float], costs: Mapping[str, float], tolerance: float) -> str | None:
-    """The cheapest level whose error is within the tolerance; None if there is none."""
-    fitting = [level for level, error in errors.items() if error <= tolerance]
-    return min(fitting, key=lambda level: costs[level]) if fitting else None
+    return min(fitting, key=lambda level: measured[level].cpu_s_per_run)

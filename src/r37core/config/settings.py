@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import product
 from pathlib import Path
-from typing import Any, Self, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -81,9 +81,9 @@ class Settings:
         return getattr(self.config, declared.name)
 
     @cached_property
-    def made(self) -> Callable[[Callable[[Self], Any]], Any]:
-        """Gives what a function makes of these settings, made once: for an extension's own part of them that takes long."""
-        return cache(lambda make: make(self))
+    def made(self) -> Callable[..., Any]:
+        """Gives what a function makes of these settings and of more arguments, each made once: what takes long, or often."""
+        return cache(lambda make, *of: make(self, *of))
 
     @cached_property
     def blade_names(self) -> list[str]:
@@ -231,10 +231,8 @@ def _planned(settings: Settings, path: KeyPath, section: Config | SpeedRule) -> 
     """The speeds of a section at `path`, whose ranges have the level's step where they give none. Raises ConfigError."""
     key, document = key_of_speeds(section), settings.documents.config
     entries = [plain(entry) if isinstance(entry, Section) else entry for entry in getattr(section, key)]
-    try:
+    with document.blamed((*path, key), SpeedError):
         plan = plan_speeds(entries, settings.fidelity.time_integration.speed_step_rad_s, UNITS[key])
-    except SpeedError as error:
-        raise document.error((*path, key), str(error)) from None
     fastest, highest = plan.every_speed()[-1], FARTHEST * settings.structure.maximum_speed_rad_s
     if fastest > highest:
         allowed = f"up to {highest:g} rad/s, {FARTHEST:g} times structure.maximum_speed_rad_s; rpm stand under speeds_rpm"
@@ -271,11 +269,6 @@ def merged_settings(settings: Settings) -> dict[str, Any]:
         "scenes": {name: plain(settings.scene_designs.entries[name]) for name in settings.scenes},
         "blades": to_plain(settings.blades),
     }
-
-
-def judged_region(settings: Settings, blade: str) -> RegionChoice:
-    """Region of a blade that decides."""
-    return next(iter(settings.stress_regions(blade).values()))
 
 
 def contact_nodes(settings: Settings, blade: str, tip_elements: int) -> int:

@@ -57,8 +57,8 @@ def draw_comparison(
     stress = None if stress is None else with_further_runs("stress", stress, further_runs)
     styles = style.blade_styles(rms["blade"].values)
     order = shared_order(campbell, float(rms["speed"].min()), float(rms["speed"].max()))
-    panels_of = {"rms, normal (mm)": 1e3 * rms["rms_normal"].sel(tip_point="leading_edge")}
-    panels_of["rms, tangential (mm)"] = 1e3 * rms["rms_tangential"].sel(tip_point="leading_edge")
+    directions, edge = ("normal", "tangential"), rms.sel(tip_point="leading_edge")
+    panels_of = {f"rms, {direction} (mm)": 1e3 * edge[f"rms_{direction}"] for direction in directions}
     if stress is not None:
         panels_of[style.stress_label(stress)] = stress["max_von_mises_median"]
     figure, panels = plt.subplots(len(panels_of), 1, figsize=(style.PAGE, 1.9 * len(panels_of) + 0.5), sharex=True)

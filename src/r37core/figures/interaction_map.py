@@ -108,8 +108,11 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
             ]
             figure.legend(keys, [label for *_, label in known.values()], loc="outside upper center", ncols=4, **close)
         figure.draw_without_rendering()
+        # above yield or with a motion, the longest first and then those with the most revolutions
+        dangerous = rows[rows["above"].isin([MOST, SOME])]
+        dangerous = dangerous.sort_values(["size", "share_of_revolutions_above_yield"], ascending=False)
         for scene, axes in panels.items():
-            _label(axes, _most_dangerous_first(rows[rows["scene"] == scene]), figure.dpi / 72.0, named=len(colours) > 1)
+            _label(axes, dangerous[dangerous["scene"] == scene], figure.dpi / 72.0, named=len(colours) > 1)
     return figure
 
 
@@ -146,12 +149,6 @@ def _draw_modes(axes: Axes, campbell: xr.Dataset, names: Iterable[str]) -> None:
                 color="0.2",
                 path_effects=_HALO,
             )
-
-
-def _most_dangerous_first(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows above yield, or with a motion, the longest first and then those with the most revolutions."""
-    dangerous = rows[rows["above"].isin([MOST, SOME])]
-    return dangerous.sort_values(["size", "share_of_revolutions_above_yield"], ascending=False)
 
 
 def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None:

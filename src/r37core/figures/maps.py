@@ -47,10 +47,9 @@ def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: x
     millimetres = 1e3 * amplitude.transpose("speed", "engine_order").values
     order, values = largest_of_bins(amplitude["engine_order"].values, millimetres, _MOST_BINS)
     largest = np.maximum(values[:, 1:].max(axis=1), 1e-12)
-    decibels = 20.0 * np.log10(np.maximum(values / largest[:, None], 1e-30))
     strip.semilogy(speed, largest, linewidth=0.8)
     style.rpm_axis(strip, most_ticks=6)
-    picture = draw_cells(axes, speed, order, decibels.T, vmin=-60.0, vmax=0.0, cmap="magma")
+    picture = _draw_decibels(axes, speed, order, (values / largest[:, None]).T)
     for mode in NAMED_MODES:
         frequency = campbell["frequency"].sel(mode=mode)
         turning = frequency["speed"].values[1:]
@@ -58,9 +57,15 @@ def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: x
         axes.plot(turning, order_of_mode, color="white", linewidth=0.6, alpha=0.7, dashes=(3.0, 5.0))
         _write_on_dark(axes, mode, 0.99, float(np.interp(speed[-1], turning, order_of_mode)), ha="right", va="bottom")
     axes.set(xlabel=style.SPEED_LABEL, xlim=(float(speed[0]), float(speed[-1])), ylim=(0.0, round(float(order[-1]))))
+    return picture
+
+
+def _draw_decibels(axes: Axes, across: np.ndarray, upward: np.ndarray, shares: np.ndarray) -> AxesImage:
+    """Cells as of draw_cells over whole numbers upward, coloured by the decibels of `shares` of the largest value."""
+    decibels = 20.0 * np.log10(np.maximum(shares, 1e-30))
     axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     axes.grid(False)
-    return picture
+    return draw_cells(axes, across, upward, decibels, vmin=-60.0, vmax=0.0, cmap="magma")
 
 
 def _write_on_dark(axes: Axes, text: str, share: float, height: float, **where: Any) -> None:
@@ -78,22 +83,12 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
         picture = draw_cells(axes, wear["speed"].values, degrees, millimetres, cmap="viridis")
         figure.colorbar(picture, ax=axes, label="wear (mm)")
         low, high = axes.get_xlim()
-        for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
-            if low <= speed <= high:
-                axes.axvline(speed, color="white", linewidth=0.7, linestyle=":")
-                _write_on_dark(axes, f"1B/{order}", (speed - low) / (high - low), 352.0, ha="left", va="top")
-        # triangles at the upper edge, where some of the lining is worn through
+        for order, speed in style.crossings_seen(axes, campbell):
+            axes.axvline(speed, color="white", linewidth=0.7, linestyle=":")
+            _write_on_dark(axes, f"1B/{order}", (speed - low) / (high - low), 352.0, ha="left", va="top")
+        # where some of the lining is worn through
         worn = maps["speed"].values[maps["worn_through_share"].values > 0.0]
-        axes.plot(
-            worn,
-            np.full(len(worn), 0.97),
-            "v",
-            transform=axes.get_xaxis_transform(),
-            color="white",
-            markeredgecolor="black",
-            markersize=5,
-            markeredgewidth=0.5,
-        )
+        style.mark_above(axes, worn, "v", color="white", markeredgecolor="black", markersize=5, markeredgewidth=0.5)
     else:
         style.say(axes, style.ALL_DIVERGED)
     axes.set(xlabel=style.SPEED_LABEL, ylabel="angle round the casing (degrees)", title=f"wear: {title}")
@@ -147,12 +142,9 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
     for axes, (wave, level) in zip(panels[0], levels.items(), strict=True):
         # several modes of one nodal diameter add up; without any the row stays empty
         diameter_levels = np.array([np.sqrt(np.sum(level[diameters == diameter] ** 2, axis=0)) for diameter in every])
-        decibels = 20.0 * np.log10(np.maximum(diameter_levels / largest, 1e-30))
-        decibels[~np.isin(every, diameters)] = np.nan
-        picture = draw_cells(axes, speed, every, decibels, vmin=-60.0, vmax=0.0, cmap="magma")
+        diameter_levels[~np.isin(every, diameters)] = np.nan
+        picture = _draw_decibels(axes, speed, every, diameter_levels / largest)
         axes.set_title(f"{wave}: {'with' if wave == 'forward' else 'against'} the rotor")
-        axes.yaxis.set_major_locator(MaxNLocator(integer=True))
-        axes.grid(False)
     panels[0, 0].set_ylabel("nodal diameters")
     figure.colorbar(picture, ax=panels[0], label=f"rms (dB below {1e3 * largest:.3g} mm)")
     energy = maps["casing_energy"].transpose("casing_mode", "speed").values.sum(axis=0)

@@ -102,12 +102,7 @@ def shade(axes: Axes, pair: xr.Dataset, colour: Any = "0.5", name: str = "motion
 
 
 def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:
-    if campbell is None:
-        return
-    low, high = axes.get_xlim()
-    for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
-        if low <= speed <= high:
-            axes.axvline(speed, color="0.5", linewidth=0.8, linestyle=":")
-            axes.annotate(
-                f"1B/{order} ", (speed, 0.98), xycoords=("data", "axes fraction"), fontsize=6, color="0.3", ha="right", va="top"
-            )
+    for order, speed in style.crossings_seen(axes, campbell):
+        axes.axvline(speed, color="0.5", linewidth=0.8, linestyle=":")
+        place, across = (speed, 0.98), ("data", "axes fraction")
+        axes.annotate(f"1B/{order} ", place, xycoords=across, fontsize=6, color="0.3", ha="right", va="top")

@@ -149,8 +149,19 @@ def legend_entries(panels: Iterable[Axes]) -> tuple[list[Any], list[str]]:
 def mark_diverged(axes: Axes, places: np.ndarray, colour: str = "red") -> None:
     """Crosses at the upper edge, worse than any number, at the places on the x axis where a run diverged."""
     if len(places):
-        where = axes.get_xaxis_transform()
-        axes.plot(places, np.full(len(places), 0.97), "x", color=colour, label="diverged", transform=where, zorder=4)
+        mark_above(axes, places, "x", color=colour, label="diverged", zorder=4)
+
+
+def mark_above(axes: Axes, places: np.ndarray, marker: str, **look: Any) -> None:
+    """Markers at the upper edge, at the places on the x axis."""
+    axes.plot(places, np.full(len(places), 0.97), marker, transform=axes.get_xaxis_transform(), **look)
+
+
+def crossings_seen(axes: Axes, campbell: xr.Dataset | None) -> list[tuple[Any, float]]:
+    """Engine orders and speeds (rad/s) of the crossings of 1B within a panel over speed; none without a Campbell diagram."""
+    low, high = axes.get_xlim()
+    crossings = () if campbell is None else campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items()
+    return [(order, speed) for order, speed in crossings if low <= speed <= high]
 
 
 def mark_operating(figure: Figure, operating: OperatingRange) -> None:

@@ -22,14 +22,9 @@ RESPONSE = "<results>/{blade}/{scene}/response.nc"
 WHOLE_BLADE_MODEL = "<results>/{blade}/whole_blade_{tip_line}.nc"
 
 
-def fill(pattern: str, **wildcards: Any) -> str:
-    """The pattern with its wildcards replaced."""
-    return pattern.format(**wildcards)
-
-
 def speed_files(wildcards: Any, speeds: Sequence[float]) -> list[str]:
     """Files of the simulations of a blade and scene at some speeds (rad/s)."""
-    return [fill(SPEED, blade=wildcards.blade, scene=wildcards.scene, speed=exact_text(speed)) for speed in speeds]
+    return [SPEED.format(blade=wildcards.blade, scene=wildcards.scene, speed=exact_text(speed)) for speed in speeds]
 
 
 def speed_of(file: Path | str) -> float:
@@ -53,4 +48,4 @@ def run_keys(runs: Iterable[tuple[str, str]]) -> Wildcards:
 
 def filled(patterns: dict[str, Wildcards]) -> list[str]:
     """The files that patterns and their wildcards stand for."""
-    return [fill(pattern, **wildcards) for pattern, several in patterns.items() for wildcards in several]
+    return [pattern.format(**wildcards) for pattern, several in patterns.items() for wildcards in several]

@@ -5,8 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import UserDict
-from collections.abc import Callable
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from r37core.base.plain import to_json, to_plain
@@ -27,41 +25,31 @@ class Attributes(UserDict[str, Any]):
         return json.dumps(self.data)
 
 
-def structure_provenance(settings: Settings) -> Callable[[str], Attributes]:
-    """Gives the attributes of a blade's mesh, reduced model and Campbell diagram, made once."""
-
-    @cache
-    def attributes(blade: str) -> Attributes:
-        kinematics = settings.kinematics_of(blade)
-        return Attributes(
-            blade=blade,
-            fidelity=settings.fidelity_name,
-            contact=settings.contact_of(blade),
-            **({} if kinematics == LINEAR else {"kinematics": kinematics}),
-            input_hash=structure_hash(settings, blade),
-        )
-
-    return attributes
+def structure_provenance(settings: Settings, blade: str) -> Attributes:
+    """Attributes of a blade's mesh, reduced model and Campbell diagram."""
+    kinematics = settings.kinematics_of(blade)
+    return Attributes(
+        blade=blade,
+        fidelity=settings.fidelity_name,
+        contact=settings.contact_of(blade),
+        **({} if kinematics == LINEAR else {"kinematics": kinematics}),
+        input_hash=structure_hash(settings, blade),
+    )
 
 
-def sweep_provenance(settings: Settings) -> Callable[[str, str], Attributes]:
-    """Gives the attributes of the simulations of a blade and scene, made once and not for each of thousands of jobs."""
-
-    @cache
-    def attributes(blade: str, scene: str) -> Attributes:
-        chosen, steps = settings.scenes[scene], settings.fidelity.time_integration
-        return Attributes(
-            settings.made(structure_provenance)(blade),
-            scene=scene,
-            scene_parameters=to_json(chosen.scene),
-            revolutions=chosen.revolutions,
-            **({"until": "settled"} if chosen.until_settled else {}),
-            largest_time_step=steps.largest_step(chosen.scene),
-            # steps of all kinds of scenes, because datasets of one level may be joined
-            numerics=f"{settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.wording}",
-        )
-
-    return attributes
+def sweep_provenance(settings: Settings, blade: str, scene: str) -> Attributes:
+    """Attributes of the simulations of a blade and scene."""
+    chosen, steps = settings.scenes[scene], settings.fidelity.time_integration
+    return Attributes(
+        settings.made(structure_provenance, blade),
+        scene=scene,
+        scene_parameters=to_json(chosen.scene),
+        revolutions=chosen.revolutions,
+        **({"until": "settled"} if chosen.until_settled else {}),
+        largest_time_step=steps.largest_step(chosen.scene),
+        # steps of all kinds of scenes, because datasets of one level may be joined
+        numerics=f"{settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.wording}",
+    )
 
 
 def shape_hash(settings: Settings, blade: str) -> str:

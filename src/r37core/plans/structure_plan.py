@@ -10,7 +10,7 @@ from r37core.base.plain import to_plain
 from r37core.config import Settings
 from r37core.config.settings import location_of_contact
 
-from .paths import WHOLE_BLADE_MODEL, fill
+from .paths import WHOLE_BLADE_MODEL
 from .provenance import Attributes, shape_hash, structure_provenance
 
 STAGES = ("geometry", "mesh", "reduced_model")
@@ -54,7 +54,7 @@ class Structure:
         """The model that recovers the whole blade, with the contact nodes of a scene, or else those of config.yaml."""
         scene = getattr(wildcards, "scene", None)
         tip_line = self.settings.scenes[scene].tip_line if scene else self.settings.structure.boundary.tip_line
-        return fill(WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
+        return WHOLE_BLADE_MODEL.format(blade=wildcards.blade, tip_line=tip_line)
 
     def made_by(self, rule: str) -> list[str]:
         """Names of the blades that a rule of the structure makes a file of, such as `mesh` or `imported_mesh`."""
@@ -85,7 +85,7 @@ class Structure:
 
     def structure_provenance(self, wildcards: Any) -> Attributes:
         """Attributes of a blade's mesh, reduced model and Campbell diagram."""
-        return self.settings.made(structure_provenance)(wildcards.blade)
+        return self.settings.made(structure_provenance, wildcards.blade)
 
     @property
     def folder(self) -> Attributes:

@@ -43,8 +43,8 @@ class Sweep(Structure):
     round_file: Callable[..., str] | None = None
 
     def provenance(self, wildcards: Any) -> Attributes:
-        """Attributes of the simulations of one blade and scene."""
-        return self.settings.made(sweep_provenance)(wildcards.blade, wildcards.scene)
+        """Attributes of the simulations of one blade and scene, made once and not for each of thousands of jobs."""
+        return self.settings.made(sweep_provenance, wildcards.blade, wildcards.scene)
 
     def contact_model(self, wildcards: Any) -> str:
         """Contact model that the simulations of a blade and scene start from."""
@@ -57,7 +57,7 @@ class Sweep(Structure):
 
     def run_inputs(self, wildcards: Any) -> dict[str, str]:
         """Files that further runs of a blade and scene start from: prepared, model, and stress where it is wanted."""
-        stamp = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
+        stamp = paths.INTEGRATION_STAMP.format(blade=wildcards.blade, scene=wildcards.scene)
         return {"prepared": stamp, **dict(zip(("model", "stress"), self.models(wildcards), strict=False))}
 
     def reduced_model(self, wildcards: Any) -> str:
@@ -66,7 +66,7 @@ class Sweep(Structure):
 
     def _model_file(self, wildcards: Any, pattern: str) -> str:
         tip_line = self.settings.scenes[wildcards.scene].tip_line
-        return paths.fill(pattern, blade=wildcards.blade, tip_line=tip_line)
+        return pattern.format(blade=wildcards.blade, tip_line=tip_line)
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds are adaptive."""
@@ -158,15 +158,15 @@ class Sweep(Structure):
         """
         pairs = self.runs_with(getattr(wildcards, "kind", KINDS[0]))
         adaptive = [(blade, scene) for blade, scene in pairs if self.settings.speed_plans[blade, scene].refined]
-        return [paths.fill(paths.ROUND, blade=blade, scene=scene, round=0) for blade, scene in adaptive]
+        return [paths.ROUND.format(blade=blade, scene=scene, round=0) for blade, scene in adaptive]
 
     def round_inputs(self, wildcards: Any) -> dict[str, Any]:
         """Input files of a round: the Campbell diagram, or the runs that the round before it asked for."""
         number, where = int(wildcards.round), {"blade": wildcards.blade, "scene": wildcards.scene}
         if number == 0:
-            return {"campbell": paths.fill(paths.CAMPBELL, **where)}
+            return {"campbell": paths.CAMPBELL.format(**where)}
         files = paths.speed_files(wildcards, self.new_speeds(wildcards, number - 1))
-        return {"before": paths.fill(paths.ROUND, **where, round=number - 1), "speeds": files}
+        return {"before": paths.ROUND.format(**where, round=number - 1), "speeds": files}
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """Criterion for halving intervals of speeds of a scene, as fields of RefinementChoice."""

@@ -3,17 +3,17 @@
 import json
 from collections.abc import Collection
 from contextlib import suppress
-from importlib import import_module
 from pathlib import Path
 
 import r37core
-from r37core.base.io import InputFileError
+from r37core.base.io import InputFileError, function_named
 from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_of_pipeline
 from r37core.config.settings import merged_settings
 from r37core.plans.extension import Extension
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
+from r37core.results.closing import counted
 
 from .extensions import EXTENSIONS
 
@@ -50,12 +50,11 @@ def line_of_extension(extension: Extension, sweep: Sweep, results: Path, began: 
     made = [file for file in files if file.exists() and file.stat().st_mtime >= began]
     if not made:
         return ""
-    closing = f"{len(made)} file{'s' * (len(made) > 1)} made"
+    closing = f"{counted(len(made), 'file')} made"
     if extension.closing:
-        module, name = extension.closing.rsplit(".", 1)
         # a file that cannot be read, or lacks a column, is no failure of the run that has ended: what reads it next refuses it
         with suppress(InputFileError, KeyError):
-            closing = getattr(import_module(module), name)(results)
+            closing = function_named(extension.closing)(results)
     # what a person opens, the best first
     order = {".html": 0, ".png": 1, ".csv": 2}
     best = min((file for file in files if file.exists()), key=lambda file: order.get(file.suffix, len(order)))

@@ -12,7 +12,7 @@ from r37core.base.io import InputFileError
 from r37core.time_integration.status import RunStatus
 
 from .joining import Along, join
-from .regions import judged, named_region
+from .regions import judged
 from .variables import DATASETS, FLAGS
 
 FURTHER_RUNS: Final = "further_runs"
@@ -94,7 +94,7 @@ def _runs(dataset: xr.Dataset | None, blade: str, scene: str, region: str = "") 
     if dataset is None or "status" not in dataset or not (blade in dataset["blade"] and scene in dataset["scene"]):
         return xr.Dataset(coords={"speed": []})
     part = dataset.sel(blade=blade, scene=scene, drop=True)
-    part = named_region(part, region) if region and "region" in part.dims else judged(part)
+    part = part.sel(region=region, drop=True) if region and "region" in part.dims else judged(part)
     return part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN))
 
 

@@ -60,6 +60,10 @@ def interaction_row(
         why = "worn through"
     elif status == RunStatus.DIVERGED and "used_thickness" in reach:
         why = status.text
+    danger = largest_of(reach)
+    # where on the blade the largest stress of all speeds is
+    at = danger["largest_stress_speed_rad_s"]
+    worst = reach.sel(speed=at) if at > 0.0 else xr.Dataset()
     return {
         **dict.fromkeys(names(INTERACTIONS[2:]), np.nan),
         "peak_speed_rad_s": speed,
@@ -67,9 +71,9 @@ def interaction_row(
         "peak_rms_tangential_m": tangential,
         "peak_motion_m": float(np.hypot(normal, tangential)),
         "drop": drop_after(response, index),
-        **_place(reach),
+        **{place: float(worst[place]) for place in PLACE_OF_STRESS if place in worst},
         "stress_region": str(reach["stress_region"].item()) if "stress_region" in reach else "",
-        **largest_of(reach),
+        **danger,
         "max_wear_m": _largest(reach, "max_wear"),
         "worn_through_share": worn_through,
         "sufficient_thickness_m": _largest(reach, "used_thickness"),
@@ -81,14 +85,6 @@ def interaction_row(
         **columns,
         "shift_rad_s": speed - columns.get("campbell_speed_rad_s", np.nan),
     }
-
-
-def _place(reach: xr.Dataset) -> dict[str, float]:
-    """Where on the blade the largest stress of all speeds is."""
-    if "max_von_mises_ever" not in reach or not (known := reach["max_von_mises_ever"].dropna("speed")).size:
-        return {}
-    worst = reach.sel(speed=known["speed"][int(np.argmax(known.values))])
-    return {place: float(worst[place]) for place in PLACE_OF_STRESS if place in worst}
 
 
 def _largest(reach: xr.Dataset, name: str) -> float:

@@ -18,11 +18,6 @@ def read_judged(file: Path | str, group: str | None = None) -> xr.Dataset:
     return judged(read_dataset(file, group=group))
 
 
-def named_region(dataset: xr.Dataset, name: str) -> xr.Dataset:
-    """The dataset with the stress of the region of this `name` alone."""
-    return dataset.sel(region=name, drop=True)
-
-
 def other_regions(dataset: xr.Dataset) -> list[str]:
     """Names of the regions that do not decide, as far as the dataset has stress there."""
     if "region" not in dataset.dims:

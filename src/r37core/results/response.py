@@ -25,8 +25,8 @@ def write_response(
     yield_stress: float,
     strengths: Strengths = UNKNOWN,
     provenance: Mapping[str, object],
-) -> None:
-    """Reduce the files of the `speeds` (rad/s, ascending), in the same order, to one file.
+) -> Path | str:
+    """Reduce the files of the `speeds` (rad/s, ascending), in the same order, to one `file`; this is returned.
 
     Speeds in `stress_history_speeds`, which have recorded it, keep the largest stress of every revolution. `yield_stress` (Pa)
     and `strengths`: of the blade's material. Raises InputFileError for a file that cannot be read.
@@ -44,6 +44,7 @@ def write_response(
     labels = {"tip_point": list(TIP_POINTS)} | ({"region": values["region"]} if "region" in values else {})
     response = dataset_of(VARIABLES, values, AXES, labels, ("speed",))
     write_dataset(response.merge(dataset_of(OF_ALL_SPEEDS | HISTORIES, values, {}, {})), file, provenance)
+    return file
 
 
 def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Strengths) -> dict[str, np.ndarray]:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import as_list, function_named, write_json
@@ -82,8 +83,7 @@ def summary(input: Any, output: Any, params: Any) -> None:
 
     Params: choice; added: name of an input -> function that adds its columns (plans.extension.AddedColumns).
     """
-    files, added = _inputs(input, params)
-    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    datasets, added = _inputs(input, params)
     write_table(added(summarise(datasets, from_plain(InteractionChoice, params.choice))), output.table)
 
 
@@ -93,8 +93,7 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     Params: runs, errors (relative one of the stress, of each run), operating (the range, or None), contacts (blade -> what its
     contact acts on), added (as of summary).
     """
-    files, added = _inputs(input, params)
-    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    datasets, added = _inputs(input, params)
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
     operating = params.operating and from_plain(OperatingRange, params.operating)
     measures = {
@@ -108,8 +107,9 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     write_table(added(ranking_table(measures, members, params.contacts)), output.table, digits=6)
 
 
-def _inputs(input: Any, params: Any) -> tuple[dict[str, str], Callable[[pd.DataFrame], pd.DataFrame]]:
-    """Files of the datasets by name, and what adds the columns of extensions to a table."""
+def _inputs(input: Any, params: Any) -> tuple[dict[str, xr.Dataset], Callable[[pd.DataFrame], pd.DataFrame]]:
+    """The datasets by name, and what adds the columns of extensions to a table."""
     files = dict(input.items())
     additions = [(function_named(function), files.pop(name)) for name, function in params.added.items()]
-    return files, lambda table: reduce(lambda made, addition: addition[0](made, addition[1]), additions, table)
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    return datasets, lambda table: reduce(lambda made, addition: addition[0](made, addition[1]), additions, table)

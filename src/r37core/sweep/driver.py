@@ -82,7 +82,16 @@ class Driver:
         every_speed = sorted(files)
         own_files = zip(*(files[speed] for speed in every_speed), strict=True)
         calls = [
-            partial(_response, self.folder / name / "response.nc", sweep, every_speed, own, json.loads(about[name]))
+            partial(
+                write_response,
+                own,
+                every_speed,
+                self.folder / name / "response.nc",
+                stress_history_speeds=sweep.history_speeds,
+                yield_stress=sweep.yield_stress,
+                strengths=sweep.strengths,
+                provenance=json.loads(about[name]),
+            )
             for (name, sweep), own in zip(sweeps.items(), own_files, strict=True)
         ]
         return dict(zip(sweeps, self.run_all(calls, "responses"), strict=True))
@@ -91,19 +100,3 @@ class Driver:
         """Files of the models of a sweep, each with the digest of its content."""
         files = [str(sweep.file(stage, self.structures, self.attributes)) for stage in sweep.models]
         return [(file, content_digest(file)) for file in files]
-
-
-def _response(
-    file: Path, sweep: BladeSweep, speeds: Sequence[float], simulations: Sequence[Path], provenance: Mapping[str, Any]
-) -> Path:
-    """The file, written as the response over the speeds (rad/s) of a sweep, of the files of its `simulations` there."""
-    write_response(
-        simulations,
-        speeds,
-        file,
-        stress_history_speeds=sweep.history_speeds,
-        yield_stress=sweep.yield_stress,
-        strengths=sweep.strengths,
-        provenance=provenance,
-    )
-    return file

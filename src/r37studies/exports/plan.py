@@ -89,9 +89,9 @@ class Exports:
         """Files that matrices are written from: the reduced model, and the mesh where full ones are wanted."""
         settings = self.sweep.settings
         tip_line = settings.structure.boundary.tip_line
-        files = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
+        files = {"rom": paths.REDUCED_MODEL.format(blade=wildcards.blade, tip_line=tip_line)}
         if self._section.full_matrices and wildcards.blade in Sweep(settings).meshed_blades:
-            files |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
+            files |= {"mesh": paths.MESH.format(blade=wildcards.blade)}
         return files
 
     def only_worst(self, wildcards: Any) -> bool:

@@ -50,10 +50,8 @@ class Calibrated:
         if lining is None or lining.published or _LENGTH in spreads:
             allowed = f"a measured scene with a lining by contact_length_m, and no distribution of {_LENGTH.key}"
             raise document.refusal(path, file, allowed)
-        try:
+        with document.blamed(path, ConfigError):
             low, high = fit_lining(read_rub_test(settings.root / file, {}), lining).contact_length.range_95
-        except ConfigError as error:
-            raise document.error(path, str(error)) from None
         if not 0.0 < low < high < np.inf:
             raise document.refusal(path, f"{file}, which does not tell the contact length", "more points")
         return {_LENGTH: SpreadEntry(log_between=[low, high]), **spreads}

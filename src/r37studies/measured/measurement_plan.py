@@ -47,11 +47,11 @@ class Measured:
         """Files that the runs of a blade and scene start from."""
         sweep, where = Sweep(self.settings), {"blade": wildcards.blade, "scene": wildcards.scene}
         quantities = [each.quantity for each in self.pair_measurements((wildcards.blade, wildcards.scene)).values()]
-        files = {"prepared": paths.fill(paths.INTEGRATION_STAMP, **where), "model": sweep.contact_model(wildcards)}
+        files = {"prepared": paths.INTEGRATION_STAMP.format(**where), "model": sweep.contact_model(wildcards)}
         if TIP_TIMING in quantities:
             files["rom"] = sweep.reduced_model(wildcards)
         if STRAIN in quantities:
-            files |= {"mesh": paths.fill(paths.MESH, **where), "whole": Sweep(self.settings).whole_blade_model(wildcards)}
+            files |= {"mesh": paths.MESH.format(**where), "whole": Sweep(self.settings).whole_blade_model(wildcards)}
         return files
 
     def _read(self, number: int, entry: MeasurementSection) -> Measurement:

@@ -44,10 +44,8 @@ def can_be_calibrated(settings: Settings) -> None:
         except (ConfigError, ImpossibleValueError) as error:
             path = (CALIBRATE.name, number.section, number.key)
             raise document.error(path, f"at the end of its range: {error}; or a narrower range") from None
-    try:
+    with document.blamed((CALIBRATE.name,), SearchPackageMissing):
         library()
-    except SearchPackageMissing as error:
-        raise document.error((CALIBRATE.name,), str(error)) from None
 
 
 def simulations(settings: Settings) -> dict[Pair, int]:

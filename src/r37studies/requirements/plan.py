@@ -109,7 +109,7 @@ class Judged:
         nodes = mesh.nodes // 2
         contact = min(contact_nodes(settings, blade, count) for count in (mesh.tip_elements, tip_elements(nodes)))
         model = ModelChoice(nodes, contact, modes, "submesh")
-        return {f"coarser_{kind}": paths.fill(MODEL_FILES[kind], blade=blade, model=model.name) for kind in ("contact", "rom")}
+        return {f"coarser_{kind}": MODEL_FILES[kind].format(blade=blade, model=model.name) for kind in ("contact", "rom")}
 
     def looks(self) -> Stage:
         """The stage of the further runs of a blade and scene."""
@@ -139,7 +139,7 @@ class Judged:
         """Files that say the volume of each blade in `densities`: its geometry, or the mesh of another program."""
         blades = self.sweep.settings.blades
         patterns = {name: paths.GEOMETRY if blades[name].has_profiles else paths.MESH for name in self.densities}
-        return [paths.fill(pattern, blade=name) for name, pattern in patterns.items()]
+        return [pattern.format(blade=name) for name, pattern in patterns.items()]
 
     @property
     def densities(self) -> dict[str, float]:

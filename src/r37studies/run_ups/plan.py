@@ -56,7 +56,7 @@ class RunUps:
         """Files that a run-up starts from, with the stress operator where its stress is wanted."""
         files = self.sweep.run_inputs(wildcards)
         if self._choice(wildcards).crossing:
-            files["campbell"] = paths.fill(paths.CAMPBELL, blade=wildcards.blade)
+            files["campbell"] = paths.CAMPBELL.format(blade=wildcards.blade)
         return files
 
     def stage(self) -> Stage:
@@ -116,13 +116,11 @@ def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
     names_are_there(settings, path, entry)
     time, document = settings.fidelity.time_integration, settings.documents.config
     choice, highest = entry.choice(time.revolutions), settings.structure.maximum_speed_rad_s
-    try:
+    with document.blamed((*path, entry.key_of_length), RunUpError):
         # of a crossing what holds wherever it lies: the higher, the more revolutions
         run_up = choice.run_up(time.samples_per_revolution, highest if entry.crossing else None)
         if entry.crossing is None:
             check_highest(max(choice.start, choice.stop), highest)
-    except RunUpError as error:
-        raise document.error((*path, entry.key_of_length), str(error)) from None
     if entry.crossing:
         engine_order_is_known(settings, (*path, "crossing", "engine_order"), entry.crossing.engine_order)
     for scene in scenes_named(settings, entry.scenes):

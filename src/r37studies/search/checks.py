@@ -44,10 +44,8 @@ def search_can_be_run(settings: Settings) -> None:
             raise document.refusal(("search", "variables", key), without, "a blade with one, or other variables")
     _operation_is_known(settings)
     _tolerances_are_possible(settings, designs)
-    try:
+    with document.blamed(("search",), SearchPackageMissing):
         library()
-    except SearchPackageMissing as error:
-        raise document.error(("search",), str(error)) from None
 
 
 def _operation_is_known(settings: Settings) -> None:
@@ -66,18 +64,14 @@ def _operation_is_known(settings: Settings) -> None:
 
 def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, values: dict[str, float]) -> None:
     """ConfigError, at `path`, where the entry or a scene cannot have these values of some variables."""
-    try:
-        for scene in designs.scenes:
+    for scene in designs.scenes:
+        with document.blamed(path, ImpossibleValueError, before=f"scene '{scene}': "):
             entry_with(designs.settings.scene_designs.entries[scene], designs.scene_changes(scene, values))
-    except ImpossibleValueError as error:
-        raise document.error(path, f"scene '{scene}': {error}") from None
-    try:
+    with document.blamed(path, ConfigError, BladeShapeError):
         design = designs.varied_entry("of the search", values)
         start = designs.blade("of the search", None).definition
         if design.sweep_lean and isinstance(start, Shape):
             check_sweep(stacking_rows([row.model_dump() for row in design.sweep_lean]), start.height)
-    except (ConfigError, BladeShapeError) as error:
-        raise document.error(path, str(error)) from None
 
 
 def _is_of_scenes(designs: SearchDesigns, document: Document, number: VariedNumber) -> None:

@@ -46,15 +46,15 @@ class Signals:
         """Inputs of signals, with those of gauges and of the speeds of interactions."""
         where = {"blade": wildcards.blade, "scene": wildcards.scene}
         files = {
-            "prepared": paths.fill(paths.INTEGRATION_STAMP, **where),
+            "prepared": paths.INTEGRATION_STAMP.format(**where),
             "model": self.sweep.contact_model(wildcards),
             "rom": self.sweep.reduced_model(wildcards),
         }
         if self.gauges(wildcards):
             whole = self.sweep.whole_blade_model(wildcards)
-            files |= {"mesh": paths.fill(paths.MESH, **where), "whole": whole}
+            files |= {"mesh": paths.MESH.format(**where), "whole": whole}
         if not self.speeds:
-            files |= {"campbell": paths.fill(paths.CAMPBELL, **where), "response": paths.fill(paths.RESPONSE, **where)}
+            files |= {"campbell": paths.CAMPBELL.format(**where), "response": paths.RESPONSE.format(**where)}
         return files
 
     @property

@@ -39,7 +39,7 @@ class Trials:
     def files(self, wildcards: Any) -> list[str]:
         """Responses of all cases of a preset that are run."""
         reasons = self.reasons(wildcards)
-        return [paths.fill(RESPONSE, preset=wildcards.preset, case=name) for name, why in reasons.items() if not why]
+        return [RESPONSE.format(preset=wildcards.preset, case=name) for name, why in reasons.items() if not why]
 
     def reasons(self, wildcards: Any) -> dict[str, str]:
         """Case -> reason why this run cannot have it; empty for one that is run."""
@@ -62,12 +62,12 @@ class Trials:
         if "stress" not in case.results:
             del patterns["rom"]
         more = {"campbell": paths.CAMPBELL} if case.crossing else {}
-        return {kind: paths.fill(pattern, **where) for kind, pattern in (patterns | more).items()}
+        return {kind: pattern.format(**where) for kind, pattern in (patterns | more).items()}
 
     def shape(self, wildcards: Any) -> dict[str, str]:
         """Files of a model's shape: the mesh of the run, or the geometry that is meshed with so many nodes."""
         own = ModelChoice.named(wildcards.model).nodes == OWN_MESH
-        return {"mesh" if own else "geometry": paths.fill(paths.MESH if own else paths.GEOMETRY, blade=wildcards.blade)}
+        return {"mesh" if own else "geometry": (paths.MESH if own else paths.GEOMETRY).format(blade=wildcards.blade)}
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """Parameters of a model that are others than those of the run."""
