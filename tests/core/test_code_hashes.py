@@ -220,7 +220,7 @@ def test_stages_do_not_share_more_than_they_need(root):
     code = CodeHashes(root / "src", root / "workflow/scripts")
     for name, others in {
         "r37core.fem.steps.mesh": "time_integration contact results figures trials config workflow",
-        "time_integration.speed_job.simulate": "mesh fem blade results figures trials config workflow",
+        "r37core.time_integration.speed_job.simulate": "mesh fem blade results figures trials config workflow",
         "r37core.results.steps.response": "figures trials config workflow",
         "r37studies.trials.steps.run": "config workflow",
     }.items():

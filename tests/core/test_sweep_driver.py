@@ -54,7 +54,7 @@ def run_speeds(monkeypatch, tmp_path):
         write_speed({"status": np.array(0), **both}, output, json.loads(about))
 
     monkeypatch.setattr(parts, "run_job", peak)
-    monkeypatch.setattr(driver, "write_response", lambda files, speeds, file, **_: response(speeds).to_netcdf(file))
+    monkeypatch.setattr(driver, "write_response", lambda files, speeds, file, **_: response(speeds).to_netcdf(file) or file)
     return lambda: run.read_text().split() if run.exists() else []
 
 

@@ -1,6 +1,6 @@
 """Last lines of a finished run: what was found, where to look, how long it took."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -49,21 +49,16 @@ def closing_lines(
     Of what is older than the run's start nothing is said. `began` and `ended`: times in s, as file times are.
     `extension_lines`: what the extensions have made in the run.
     """
-    lines = [*_sweep_lines(results, began, remarks), *extension_lines]
+    lines = []
+    if (summary := _table(results / "summary.csv", began)) is not None:
+        # a run asked for a table alone makes nothing else
+        places = {"explorer.html": " (any browser)", "summary.csv": "", "figures": "/"}
+        there = (f"{results / name}{more}" for name, more in places.items() if (results / name).exists())
+        diverged, said = _run_counts(results / "rms.nc")
+        ranked = _ranked(results / "ranking.csv", began)
+        lines += [_found(summary) + diverged, *said, *ranked, *remarks, f"look at {', '.join(there)}"]
+    lines += extension_lines
     return [*lines, _took(ended - began)] if lines else []
-
-
-def _sweep_lines(results: Path, began: float, remarks: Iterable[str]) -> list[str]:
-    summary = _table(results / "summary.csv", began)
-    if summary is None:
-        return []
-    # a run asked for a table alone makes nothing else
-    places = {"explorer.html": " (any browser)", "summary.csv": "", "figures": "/"}
-    there = (f"{results / name}{more}" for name, more in places.items() if (results / name).exists())
-    where = f"look at {', '.join(there)}"
-    ranked = _ranked(results / "ranking.csv", began)
-    diverged, said = _run_counts(results / "rms.nc")
-    return [_found(summary) + diverged, *said, *ranked, *remarks, where]
 
 
 def _table(file: Path, began: float) -> pd.DataFrame | None:
@@ -111,39 +106,35 @@ def _stress(row: Any) -> str:
     return f"{nominal} GPa ({low_text} to {high_text} in nine tenths of the members)"
 
 
-def _ranked(file: Path, began: float) -> list[str]:
+def _ranked(file: Path, began: float) -> Iterator[str]:
     """Lines on the ranking: each scene, all scenes, contact, missed speeds; nothing where stress is in no scene."""
     table = _table(file, began)
     if table is None or (table := table[table[_LENGTH].notna()]).empty:
-        return []
+        return
     groups = table.groupby("contact", sort=False, dropna=False)
     alike = {"" if pd.isna(contact) else contact: rows for contact, rows in groups}
-    lines = []
     for contact, rows in alike.items():
         among = f"{contact}: " if contact else ""
-        lines += [f"{among}{line}" for line in (*_extremes(rows, file), *_over_scenes(rows))]
-    lines += _remarks_on_contact({contact: rows["blade"].unique().tolist() for contact, rows in alike.items()})
+        yield from (f"{among}{line}" for line in (*_extremes(rows, file), *_over_scenes(rows)))
+    yield from _remarks_on_contact({contact: rows["blade"].unique().tolist() for contact, rows in alike.items()})
     if (gap := table["largest_gap_rad_s"].max()) > 0.0:
-        lines.append(f"speeds lie up to {gap:g} rad/s apart: a narrower interaction between them may be missed")
-    return lines
+        yield f"speeds lie up to {gap:g} rad/s apart: a narrower interaction between them may be missed"
 
 
-def _extremes(rows: pd.DataFrame, file: Path) -> list[str]:
+def _extremes(rows: pd.DataFrame, file: Path) -> Iterator[str]:
     """Best and worst blades of each scene, with all that cannot be told apart from them."""
-    lines = []
     # of many scenes, as of a family, their tables say it
     for scene, table in rows.groupby("scene", sort=False) if rows["scene"].nunique() <= MOST_SCENES else ():
         safest, longest = (table[table["rank"] == table["rank"].iloc[end]] for end in (0, -1))
         if len(safest) < len(table):
             verb = "is" if len(safest) == 1 else "are"
-            lines.append(
+            yield (
                 f"{scene}: {_named(safest)} {verb} above yield in most revolutions at the fewest speeds ({_lengths(safest)}), "
                 f"{_named(longest)} at the most ({_lengths(longest)}); {file}"
             )
         elif len(table) > 1:
             over = f"above yield in most revolutions over {_lengths(table)}"
-            lines.append(f"{scene}: {_named(table)} cannot be ranked ({over}); {file}")
-    return lines
+            yield f"{scene}: {_named(table)} cannot be ranked ({over}); {file}"
 
 
 def _lengths(rows: pd.DataFrame) -> str:
@@ -219,12 +210,7 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
     few = "lined_tip_share" in rms and rms["scene"].to_index().nunique() <= MOST_SCENES
     lined = np.flatnonzero(rms["lined_tip_share"].notnull()) if few else ()
     linings = {pairs[number]: {name: rms[name].values[number] for name in OF_LINING} for number in lined}
-    lines = [
-        *remarks_on_contact(list(untouched)),
-        *remarks_on_diverged(fed),
-        *remarks_on_limits(limited),
-        *lining_texts(linings),
-    ]
+    lines = [*remarks_on_contact([*untouched]), *remarks_on_diverged(fed), *remarks_on_limits(limited), *lining_texts(linings)]
     return f"; {failed.sum()} of {runs} runs diverged" if failed.any() else "", lines
 
 

@@ -1,6 +1,6 @@
 """Interactions: peaks of the response over speed, matched with modes and engine orders; ranges above yield on a bare casing."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -92,23 +92,21 @@ def titles(interactions: Iterable[Interaction]) -> dict[float, str]:
     return {row["peak_speed_rad_s"]: interaction_title(row["mode"], row["engine_order"]) for row in interactions}
 
 
-def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, choice: InteractionChoice) -> list[_Peak]:
+def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, choice: InteractionChoice) -> Iterator[_Peak]:
     curve = response[f"rms_{direction}"].fillna(0.0).values
     largest = curve.max()
     if not largest > 0.0:
-        return []
+        return
     # a floor at both ends gives peaks there too: no interactions themselves, they end the reach of their neighbours
     indices = find_peaks(np.concatenate([[0.0], curve, [0.0]]), prominence=choice.prominence * largest)[0] - 1
     inner = find_peaks(curve, prominence=choice.prominence * largest)[0]
-    peaks = []
     for index in indices.tolist():
         low = np.flatnonzero(curve <= curve[index] - choice.prominence * largest)
         top = range(int(low[low < index].max(initial=-1)) + 1, int(low[low > index].min(initial=len(curve))))
         at = response.isel(speed=index)
         order = round(strongest_order(at[SPECTRA[direction]])) if SPECTRA[direction] in at else None
         crossing = _nearest_crossing(campbell, float(at["speed"]), order, choice)
-        peaks.append(_Peak(direction, index, float(curve[index] / largest), top, index in inner, *crossing))
-    return peaks
+        yield _Peak(direction, index, float(curve[index] / largest), top, index in inner, *crossing)
 
 
 def _nearest_crossing(
