@@ -37,18 +37,6 @@ def test_unrolled_distance_is_distance_on_the_flat_sector():
     assert np.hypot(*cone.unroll(*first, *second)) == pytest.approx(abs(flat[1] - flat[0]), rel=1e-13)
 
 
-def test_paths_on_a_cylinder_are_a_helix_and_a_circular_arc():
-    path = ConstantRatePath(Cone(0.2, 0.0), 0.0, 0.0, 0.7, 0.0)
-    m, theta = path.point(0.05)
-    assert m == pytest.approx(0.05 * np.cos(0.7), rel=1e-14)
-    assert theta == pytest.approx(0.05 * np.sin(0.7) / 0.2, rel=1e-14)
-    rate = 12.0
-    path = ConstantRatePath(Cone(0.2, 0.0), 0.0, 0.0, 0.4, rate)
-    m, theta = path.point(np.linspace(0.0, 0.05, 7))
-    centre = np.array([-np.sin(0.4), np.cos(0.4)]) / rate
-    np.testing.assert_allclose(np.hypot(m - centre[0], 0.2 * theta - centre[1]), 1.0 / rate, rtol=1e-13)
-
-
 @given(half_angles, angles, st.floats(-15.0, 15.0))
 def test_path_obeys_its_differential_equations(half_angle, kappa, rate):
     cone = Cone(0.2, half_angle)

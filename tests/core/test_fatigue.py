@@ -140,14 +140,6 @@ def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
     assert numbers["cycle_counts"].shape == (1, 3)
 
 
-def test_the_pairs_of_a_run_are_those_of_its_nodes(a_run):
-    """The largest share of all revolutions is that of the nodes' largest alternating stress: their mean is one of all."""
-    _, numbers = a_run
-    strengths = Strengths(3e8, 5e8)
-    nodes = strengths.share(numbers["alternating_stress"], numbers["mean_stress"])
-    assert goodman_statistic(numbers, strengths)["goodman_share"] == nodes.max() > 0.1
-
-
 def test_rotation_is_in_the_mean_whatever_the_scene_asks_for(a_run, contact, model, steel):
     _, numbers = a_run
     results, stress = ("stress", "static_stress", "fatigue"), {"box": box_operator(model, steel)}
@@ -155,14 +147,6 @@ def test_rotation_is_in_the_mean_whatever_the_scene_asks_for(a_run, contact, mod
     for name in ("mean_stress", "alternating_stress", "cycle_mean", "cycle_alternating", "cycle_counts"):
         np.testing.assert_array_equal(kept[name], numbers[name])
     assert kept["max_von_mises_last_revolution"] != numbers["max_von_mises_last_revolution"]
-
-
-def test_a_diverged_run_has_no_shares(contact, model, steel):
-    scene = replace(DIRECT, divergence_limit=2e-4)
-    kept = run_speed(contact, 1340.0, scene, CHOICE, ("stress", "fatigue"), stress={"box": box_operator(model, steel)}, **KEPT)
-    assert kept["status"] == 1 and np.isnan(kept["alternating_stress"]).all() and len(kept["cycle_mean"]) == 0
-    found = goodman_statistic(kept, Strengths(3e8, 5e8))
-    assert np.isnan(found["goodman_share"]) and np.isnan(found["share_of_revolutions_above_goodman"])
 
 
 def test_a_rotor_has_the_largest_of_its_blades(contact, model, steel):
@@ -215,7 +199,8 @@ def test_a_response_has_the_shares_of_its_speeds(swept, responses):
         assert len(found) == 7
         for name, value in found.items():
             np.testing.assert_array_equal(response[name].values[number] if response[name].ndim else response[name], value)
-    assert response["goodman_share"].notnull().values.tolist() == [True, True, False]
+    for share in ("goodman_share", "share_of_revolutions_above_goodman"):
+        assert response[share].notnull().values.tolist() == [True, True, False]
     of_nodes = Strengths(3e8, 5e8).share(response["alternating_stress"].values, response["mean_stress"].values)
     np.testing.assert_array_equal(of_nodes.max(axis=1), response["goodman_share"])
     unknown = read_judged(responses["Unknown", "direct"])

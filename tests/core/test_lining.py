@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import yaml
 from defaults import Casing, IntegrationChoice, Lining, Scene
-from integration_cases import ABRADABLE, DIRECT, NARROW, oscillator, random_model, with_static_modes
+from integration_cases import NARROW, oscillator, random_model, with_static_modes
 from integration_runs import ENGINES, whole_run
 from workflow_runs import overlay
 
@@ -134,25 +134,6 @@ def test_two_clearances_are_so_many_metres(clearance):
     assert casing_of(**clearance).lobe_height == casing_of(**clearance, amplitude_clearances=2.0).lobe_height == 7.12e-4
     assert casing_of(**clearance, amplitude_m=7.12e-4).lobe_height == 7.12e-4
     assert casing_of(**clearance, amplitude_m=7.12e-4, lobes=0).lobe_height == 0.0
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("engine", "scene", "growing"),
-    [("compiled", ABRADABLE, True), ("compiled", DIRECT, False), ("reference", ABRADABLE, False), ("reference", DIRECT, True)],
-)
-def test_both_give_the_same_bits(engine, scene, growing):
-    model = with_static_modes(random_model(3), 1e-9)
-    choice = IntegrationChoice(2e-6, 1, 31, integrator="exact_modal")
-
-    def samples(**casing):
-        rubs_on = replace(scene, casing=replace(scene.casing, centrifugal=growing, rise_fraction=0.2, **casing))
-        return whole_run(model, 1000.0, rubs_on, choice, engine=engine)[2].samples
-
-    lobes = samples(amplitude=2.0)
-    assert np.abs(lobes).max() > 1e-9
-    np.testing.assert_array_equal(samples(height=7.12e-4), lobes)
-    assert not np.array_equal(samples(height=7.0e-4), lobes)
 
 
 SPREAD = {"casing.clearance_m": {"uniform_percent": 5}}

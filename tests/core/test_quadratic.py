@@ -119,14 +119,6 @@ def start_at_rest(simulation, state, displacement):
     InitialMotion(coordinates, None).put(simulation.problem, state)
 
 
-def test_forces_are_those_of_the_energy(contact):
-    quadratic = Simulation(contact, SPEED, FAR, CHOICE).problem.contact.quadratic
-    u = np.random.default_rng(0).standard_normal(quadratic.rows.shape[1]) * 1e-4
-    step = 1e-9 * np.random.default_rng(1).standard_normal(u.shape)
-    change = quadratic.energy(u + step) - quadratic.energy(u - step)
-    assert change == pytest.approx(-2.0 * quadratic.force(u) @ step, rel=1e-6)
-
-
 def test_the_velocity_of_what_follows_is_the_rate_of_its_displacement(contact):
     blade = Simulation(contact, SPEED, FAR, replace(CHOICE, static_above=0.5)).problem
     quadratic, followers = blade.contact.quadratic, blade.blade.followers.shape[1]
@@ -293,20 +285,6 @@ def test_a_mistuned_blade_has_the_large_motion_of_a_stiffer_one(contact):
     twice = paths["tuned"][1::2]
     np.testing.assert_allclose(paths["mistuned"], twice, rtol=0, atol=2e-3 * size)
     assert np.abs(paths["linear"] - paths["tuned"]).max() > 0.05 * size
-
-
-def test_small_motions_are_linear(displaced, contact):
-    """A motion of a thousandth of a millimetre is that of the model without terms of second order."""
-    linear = contact_model(replace(displaced, quadratic=None), "pressure_edge")
-    samples = []
-    for model in (contact, linear):
-        simulation = Simulation(model, SPEED, FAR, CHOICE)
-        state = simulation.start()
-        unit = np.zeros_like(simulation.problem.blade.frequencies)
-        unit[0] = 1e-7
-        start_at_rest(simulation, state, unit)
-        samples.append(simulation.advance(state, 3).samples)
-    assert np.abs(samples[0] - samples[1]).max() < 1e-4 * np.abs(samples[1]).max()
 
 
 def test_how_far_a_run_goes_is_told(displaced, contact):

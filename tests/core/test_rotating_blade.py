@@ -1,13 +1,10 @@
 """A blade about its equilibrium under rotation: frequencies, statics in CalculiX, stress, files, and refusals."""
 
-import shutil
-
 import numpy as np
 import pytest
 from box_mesh import box_mesh
 from quadratic_cases import CHOICE, FAR, beam_model, held
 from scipy.linalg import eigh
-from test_calculix import printed, run_calculix
 
 from r37core.config import ConfigError, command_line_document
 from r37core.fem.equilibrium import NoEquilibriumError, Rotation
@@ -119,23 +116,6 @@ def moved_by_the_model(displaced, mesh, loads, motion):
     shape = displaced.whole_blade.basis @ (simulation.problem.model.to_reduced @ held(simulation, force)[1])
     rotated = displaced.whole_blade.rotation_shapes @ rotation_amplitudes(displaced.rotation_stiffening, SPEED)
     return outwards(mesh, rotated + shape, rotated)
-
-
-@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (apt-get install calculix-ccx)")
-@pytest.mark.parametrize("motion", [-7.0, 7.0])
-def test_motion_of_the_tip_in_calculix(displaced, mesh, matrices, steel, loads, tmp_path, motion):
-    """Within 2% of the millimetres that it moves."""
-    fields = []
-    for name, share in (("still", 0.0), ("moved", motion)):
-        (tmp_path / name).mkdir()
-        forces = SPEED**2 * matrices.centrifugal_load + share * loads
-        lines = [f"{node + 1}, {axis + 1}, {force:.12g}" for (node, axis), force in np.ndenumerate(forces) if force]
-        step = ["0.2, 1.0, 1e-4, 0.25", "*CLOAD", *lines, "*NODE PRINT, NSET=ALL_NODES, FREQUENCY=100", "U"]
-        fields.append(
-            printed(run_calculix(tmp_path / name, mesh, steel, step, "*STEP, NLGEOM, INC=200"), 4)[-len(mesh.points) :, 1:]
-        )
-    theirs = outwards(mesh, fields[1], fields[0])
-    assert moved_by_the_model(displaced, mesh, loads, motion) == pytest.approx(theirs, abs=2e-5)
 
 
 def test_motion_of_the_tip_in_the_full_model(displaced, mesh, rotation, equilibrium, loads):

@@ -3,14 +3,12 @@
 from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator, random_model
 from integration_runs import in_all_directions
-from reference_engine import ReferenceSimulation
 
 from r37core.base.dataset_file import read_dataset
 from r37core.contact.laws import used_thickness, wear_at_the_casing, worn
@@ -19,7 +17,6 @@ from r37core.results.datasets import write_sweep_dataset
 from r37core.results.regions import read_judged
 from r37core.results.response import write_response
 from r37core.stress.operator import StressOperator
-from r37core.time_integration.casing_of_run import CasingOfRun
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.kept_numbers import wear_numbers
 from r37core.time_integration.problem import Problem, UnstableStepError
@@ -35,7 +32,7 @@ from r37core.time_integration.settling import (
 )
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
-from r37core.time_integration.speed_run import numbers_of_run, run_speed
+from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.state import SimulationState
 from r37core.time_integration.status import RunStatus
 from r37core.time_integration.time_grid import TimeGrid
@@ -182,11 +179,6 @@ def test_snapshots_are_the_last_samples_of_equal_parts(snapshots, kept):
         assert [first + n for first, last in pieces for n in grid.snapshots_between(first, last)] == expected
 
 
-def test_rotation_slides_the_tip_with_its_own_speed():
-    run = SimpleNamespace(tip=SimpleNamespace(radius=np.array([0.25])), grid=SimpleNamespace(speed=1000.0))
-    np.testing.assert_array_equal(CasingOfRun.rotation_velocity.fget(run), [-250.0])
-
-
 CLEARANCE = 1e-4
 REVOLUTION = np.arange(200.0)
 NOISE = np.random.default_rng(0).standard_normal(200)
@@ -302,19 +294,6 @@ def test_a_share_of_the_rise_is_one_of_the_published_length(settled):
     fixed = replace(CHOICE, until_settled=False)
     fifth = replace(scenes[0], casing=replace(RISING, rise_revolutions=None, rise_fraction=0.025))
     np.testing.assert_array_equal(run(fifth, fixed, ())["revolution_maximum"], run(LINED, fixed, ())["revolution_maximum"])
-
-
-@pytest.mark.slow
-def test_engines_end_in_the_same_revolution():
-    soon = replace(LINED, casing=replace(RISING, rise_revolutions=1.0), damping_ratio=0.1)
-    few = replace(CHOICE, revolutions=60)
-    ours = run(soon, few, ("wear",))
-    reference = ReferenceSimulation(oscillator(6400.0), SPEED, soon, few).run()
-    theirs = numbers_of_run(reference, ("wear",), spectrum_highest_order=10, wear_angles=60)
-    assert ours["settled_revolution"] < few.revolutions
-    for name in ("settled_revolution", "motion_at_end", "statistic_end"):
-        assert theirs[name] == ours[name]
-    np.testing.assert_allclose(theirs["rms_normal"], ours["rms_normal"], rtol=1e-6)
 
 
 def test_what_does_not_settle_goes_on_to_the_last_revolution():
