@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import RING, SCENES, model_of_node, oscillator, random_model, with_static_modes
-from integration_runs import ENGINES, assert_close, assert_same_record, assert_same_state, both_engines, free_motion, times
+from integration_runs import ENGINES, assert_close, assert_same_record, assert_same_state, free_motion, times
 from integration_runs import whole_run as run_of
 from pydantic import TypeAdapter
 
@@ -72,13 +72,6 @@ def test_a_mode_between_two_frequencies_decays_as_the_closed_form(engine, freque
     start = InitialMotion(np.array([1e-3]), None)
     simulation, _, record = run_of(model, 1000.0, with_damping(FREE, RISING), choice, start, engine)
     assert_close(record.samples[:, 0], free_motion(omega, ratio, times(simulation, 62), 1e-3, 0.0), 1e-10)
-
-
-@pytest.mark.parametrize("name", RUNS)
-def test_both_engines_agree(name):
-    (_, ours, found), (_, theirs, expected) = both_engines(BLADE, 12_000.0, with_damping(RUNS[name], RISING), CHOICE)
-    assert_same_record(found, expected, 1e-8)
-    assert_same_state(ours, theirs, 1e-8)
 
 
 def test_the_frequency_is_that_of_the_speed_and_of_the_blade():

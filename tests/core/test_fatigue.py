@@ -112,10 +112,15 @@ def test_numbers_of_known_revolutions():
 
 
 @pytest.fixture(scope="module")
-def a_run(contact, model, steel):
+def stress(model, steel):
+    return {"box": box_operator(model, steel)}
+
+
+@pytest.fixture(scope="module")
+def a_run(contact, stress):
     """A run that is done, and the numbers kept of it."""
     run = Simulation(contact, 1340.0, DIRECT, CHOICE).run()
-    return run, numbers_of_run(run, ("stress", "fatigue"), stress={"box": box_operator(model, steel)}, **KEPT)
+    return run, numbers_of_run(run, ("stress", "fatigue"), stress=stress, **KEPT)
 
 
 def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
@@ -140,18 +145,17 @@ def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
     assert numbers["cycle_counts"].shape == (1, 3)
 
 
-def test_rotation_is_in_the_mean_whatever_the_scene_asks_for(a_run, contact, model, steel):
+def test_rotation_is_in_the_mean_whatever_the_scene_asks_for(a_run, contact, stress):
     _, numbers = a_run
-    results, stress = ("stress", "static_stress", "fatigue"), {"box": box_operator(model, steel)}
-    kept = run_speed(contact, 1340.0, DIRECT, CHOICE, results, stress=stress, **KEPT)
+    kept = run_speed(contact, 1340.0, DIRECT, CHOICE, ("stress", "static_stress", "fatigue"), stress=stress, **KEPT)
     for name in ("mean_stress", "alternating_stress", "cycle_mean", "cycle_alternating", "cycle_counts"):
         np.testing.assert_array_equal(kept[name], numbers[name])
     assert kept["max_von_mises_last_revolution"] != numbers["max_von_mises_last_revolution"]
 
 
-def test_a_rotor_has_the_largest_of_its_blades(contact, model, steel):
+def test_a_rotor_has_the_largest_of_its_blades(contact, stress):
     """Two blades, each on a lining of its own, are two single ones: in each revolution the larger share counts."""
-    choice, stress = replace(CHOICE, revolutions=4, snapshot_revolutions=4), {"box": box_operator(model, steel)}
+    choice = replace(CHOICE, revolutions=4, snapshot_revolutions=4)
     angles, factors, longer = (0.0, np.pi), (1.0, 1.03), (0.0, 1e-4)
 
     def shares(places):
@@ -170,9 +174,9 @@ SPEEDS = [1000.0, 1340.0, 1700.0]
 
 
 @pytest.fixture(scope="module")
-def swept(contact, model, steel, tmp_path_factory):
+def swept(contact, stress, tmp_path_factory):
     """Files of three speeds in direct contact, of which the last one diverges."""
-    folder, stress = tmp_path_factory.mktemp("fatigue"), {"box": box_operator(model, steel)}
+    folder = tmp_path_factory.mktemp("fatigue")
     files = [folder / f"{speed:g}.npz" for speed in SPEEDS]
     for speed, file in zip(SPEEDS, files, strict=True):
         scene = replace(DIRECT, divergence_limit=1e-7) if speed == SPEEDS[-1] else DIRECT

@@ -38,6 +38,12 @@ def tip(simulation, displacement):
     return simulation.problem.model.tip_displacement_operator[:2, 0] @ displacement
 
 
+def first_mode(simulation, deflection):
+    """Displacement of the stepped modes: of the first alone, whose leading edge moves tangentially by a deflection (m)."""
+    shape = simulation.problem.model.tip_displacement_operator[1, 0] @ simulation.problem.blade.modes
+    return np.eye(len(shape))[0] * deflection / shape[0]
+
+
 def elastica(slope):
     """Shortening and deflection over the length of a cantilever whose free end a transverse load turns by a `slope`."""
 
@@ -101,11 +107,9 @@ def test_backbone_of_an_inextensible_cantilever(beam):
 def frequency_of(model, amplitude):
     """Frequency (rad/s) of the free motion from rest at a deflection of the tip (m) in the first mode, held by a force."""
     simulation = free_blade(model, 10.0, revolutions=2, samples_per_revolution=1240)
-    shape = simulation.problem.model.tip_displacement_operator[1, 0] @ simulation.problem.blade.modes
-    unit = np.zeros_like(simulation.problem.blade.frequencies)
-    unit[0] = amplitude / shape[0] * simulation.problem.blade.frequencies[0] ** 2
+    force = first_mode(simulation, amplitude) * simulation.problem.blade.frequencies[0] ** 2
     state = simulation.start()
-    start_at_rest(simulation, state, held(simulation, unit)[0])
+    start_at_rest(simulation, state, held(simulation, force)[0])
     motion = simulation.advance(state, 1).samples[:, 2]
     rising = np.flatnonzero((motion[:-1] < 0.0) & (motion[1:] >= 0.0))
     times = rising + motion[rising] / (motion[rising] - motion[rising + 1])
@@ -169,10 +173,7 @@ def test_the_motion_of_a_blade_that_softens_is_bounded(softening):
     for simulation_class in ENGINES.values():
         simulation = simulation_class(softening, SPEED, FAR, CHOICE)
         state = simulation.start()
-        unit = np.zeros_like(simulation.problem.blade.frequencies)
-        shape = simulation.problem.model.tip_displacement_operator[1, 0] @ simulation.problem.blade.modes
-        unit[0] = 0.006 / shape[0]
-        start_at_rest(simulation, state, unit)
+        start_at_rest(simulation, state, first_mode(simulation, 0.006))
         samples.append(simulation.advance(state, 4).samples)
     assert np.abs(samples[0]).max() < 0.02
     np.testing.assert_allclose(samples[0], samples[1], rtol=0, atol=1e-6 * np.abs(samples[1]).max())
@@ -182,10 +183,7 @@ def test_free_flight_is_that_of_its_equations(contact):
     """From 10 mm at the leading edge, by SciPy's integration of the same modes, and without loss of energy."""
     simulation = Simulation(contact, SPEED, FAR, replace(CHOICE, time_step=1.6e-6))
     quadratic, frequencies = simulation.problem.contact.quadratic, simulation.problem.blade.frequencies
-    shape = simulation.problem.model.tip_displacement_operator[1, 0] @ simulation.problem.blade.modes
-    unit = np.zeros_like(frequencies)
-    unit[0] = 0.010 / shape[0] * frequencies[0] ** 2
-    start = held(simulation, unit)[0]
+    start = held(simulation, first_mode(simulation, 0.010) * frequencies[0] ** 2)[0]
 
     def rate(_, y):
         u, velocity = np.split(y, 2)

@@ -298,11 +298,8 @@ def test_a_share_of_the_rise_is_one_of_the_published_length(settled):
 
 def test_what_does_not_settle_goes_on_to_the_last_revolution():
     """Free and undamped, but slowly pumped: a mode whose amplitude beats changes from window to window."""
-    free = Scene(Casing(1.0, lobes=0), damping_ratio=2e-5)
-    model = oscillator(10.0 * SPEED)
-    motion = InitialMotion.from_arrays([1e-4], None)
-    choice = replace(CHOICE, revolutions=230)
-    kept = run_speed(model, SPEED, free, choice, (), spectrum_highest_order=10, wear_angles=60, motion=motion)
+    free, choice = replace(FREE, damping_ratio=2e-5), replace(CHOICE, revolutions=230)
+    kept = kept_of(oscillator(10.0 * SPEED), SPEED, free, choice, (), motion=SWINGING)
     assert np.isnan(kept["settled_revolution"]) and kept["statistic_end"] == 230
     assert np.isfinite(kept["revolution_maximum"]).all()
 

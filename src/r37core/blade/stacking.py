@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 import scipy
 
-from .cone import Cone
 from .profile import BladeShapeError, Profile, area_and_centroid
 
 _TOLERANCE = 1e-9  # m
@@ -142,24 +141,10 @@ def sweep_and_lean(spans: np.ndarray, table: np.ndarray) -> Placement:
     return Placement(sweep, -lean)
 
 
-class PlacedSection(Protocol):
-    """A profile, or another section: its cone, its centre of area (m, theta) on that, and its stagger angle (rad)."""
-
-    @property
-    def cone(self) -> Cone:
-        """Cone that it lies on."""
-
-    @property
-    def centroid(self) -> tuple[float, float]:
-        """Centre of area."""
-
-    @property
-    def stagger(self) -> float:
-        """Stagger angle."""
-
-
-def chordwise_sweep(profiles: Sequence[PlacedSection], angle: float) -> Placement:
+def chordwise_sweep(profiles: Sequence[Any], angle: float) -> Placement:
     """Placement of profiles or sections (hub to tip) for a chordwise sweep by `angle` (rad), positive forward.
+
+    Each has, as a Profile, its `cone`, its centre of area (m, theta) on that, `centroid`, and its `stagger` angle (rad).
 
     Source: section 2 of the benchmark: axial sweep -tan(angle) (r - r_hub) cos(stagger) and lean
     arcsin(tan(angle) (r - r_hub)/r sin(stagger)), r the radius of the profile's centre of area.

@@ -55,6 +55,17 @@ def typed_blocks(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, Elem
         yield name, ELEMENTS[name], points[nodes]
 
 
+def stiffness_points(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    """Points that integrate the stiffness of each block, by its name.
+
+    Gradients of the shape functions there, shape (elements, points, n, 3), and volumes (m3), shape (elements, points).
+    """
+    for name, element, coordinates in typed_blocks(blocks, points):
+        rule_points, rule_weights = element.stiffness_rule
+        gradients, determinant = element.physical_gradients(coordinates, rule_points)
+        yield name, gradients, determinant * rule_weights
+
+
 def assemble_stiffness(pattern: NodePattern, blocks: Blocks, points: np.ndarray, material: Material) -> np.ndarray:
     """Linear elastic stiffness as 3 x 3 blocks (N/m), shape (pairs, 3, 3).
 
@@ -63,12 +74,10 @@ def assemble_stiffness(pattern: NodePattern, blocks: Blocks, points: np.ndarray,
     """
     lame, shear = material.lame_constants
     stiffness = np.zeros((len(pattern.indices), 3, 3))
-    for name, element, coordinates in typed_blocks(blocks, points):
-        rule_points, rule_weights = element.stiffness_rule
-        gradients, determinant = element.physical_gradients(coordinates, rule_points)
-        size = len(element.nodes)
-        flat = gradients.reshape(len(coordinates), len(rule_weights), 3 * size)
-        weighted = flat * (determinant * rule_weights)[:, :, None]
+    for name, gradients, volumes in stiffness_points(blocks, points):
+        size = gradients.shape[2]
+        flat = gradients.reshape(*volumes.shape, 3 * size)
+        weighted = flat * volumes[:, :, None]
         products = (flat.transpose(0, 2, 1) @ weighted).reshape(-1, size, 3, size, 3)
         trace = np.einsum("eakbk->eab", products)
         for i in range(3):

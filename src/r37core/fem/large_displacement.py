@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .assembly import Blocks, NodePattern, typed_blocks
+from .assembly import Blocks, NodePattern, stiffness_points
 from .material import Material
 from .strain import displacement_gradient, green_strain, second_order_strain
 
@@ -33,12 +33,8 @@ class LargeDisplacement:
     @cached_property
     def _gradients(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Gradients of the shape functions, shape (elements, points, n, 3), and volumes of the points, by element type."""
-        elements = {}
-        for name, element, coordinates in typed_blocks(self.blocks, self.points):
-            rule_points, rule_weights = element.stiffness_rule
-            gradients, determinant = element.physical_gradients(coordinates, rule_points)
-            elements[name] = gradients, determinant * rule_weights
-        return elements
+        parts = stiffness_points(self.blocks, self.points)
+        return {name: (gradients, volumes) for name, gradients, volumes in parts}
 
     def forces(self, displacement: np.ndarray) -> np.ndarray:
         """Elastic forces of a displacement."""

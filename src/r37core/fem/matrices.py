@@ -12,7 +12,7 @@ import scipy.sparse as sp
 
 from r37core.mesh.blade_mesh import BladeMesh
 
-from .assembly import Blocks, NodePattern, assemble_mass, assemble_stiffness, block_matrix, typed_blocks
+from .assembly import Blocks, NodePattern, assemble_mass, assemble_stiffness, block_matrix, stiffness_points, typed_blocks
 from .material import Material
 from .solver import Solve, factorise
 from .stress import stress_at
@@ -129,12 +129,10 @@ def assemble_geometric_stiffness(
     grad N_a . S grad N_b (Zienkiewicz and Taylor, The Finite Element Method, initial-stress matrix).
     """
     geometric = np.zeros(len(pattern.indices))
-    for name, element, coordinates in typed_blocks(blocks, points):
-        rule_points, rule_weights = element.stiffness_rule
-        gradients, determinant = element.physical_gradients(coordinates, rule_points)
+    for name, gradients, volumes in stiffness_points(blocks, points):
         pulled = gradients @ stress_at(gradients, displacement[blocks[name]], material)
-        weighted = gradients * (determinant * rule_weights)[:, :, None, None]
-        flat = (len(coordinates), len(element.nodes), -1)
+        weighted = gradients * volumes[:, :, None, None]
+        flat = (len(gradients), gradients.shape[2], -1)
         left, right = (part.transpose(0, 2, 1, 3).reshape(flat) for part in (weighted, pulled))
         geometric += pattern.scatter(name, left @ right.transpose(0, 2, 1))
     return geometric

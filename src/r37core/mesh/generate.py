@@ -127,10 +127,9 @@ def _write_msh(mesh: BladeMesh, tags: np.ndarray, volume: int, file: Path) -> No
     for tag, point in zip(tags.tolist(), mesh.points.tolist(), strict=True):
         gmsh.model.mesh.setNode(tag, point, [])
     gmsh.model.addPhysicalGroup(3, [volume], name="blade")
-    for name in ("root", "tip", "leading_edge", "trailing_edge"):
-        gmsh.model.addPhysicalGroup(2, [_entity_of(2, tags[mesh.node_set(name)])], name=name)
-    for name in ("tip_pressure_edge", "tip_suction_edge"):
-        gmsh.model.addPhysicalGroup(1, [_entity_of(1, tags[mesh.node_set(name)])], name=name)
+    for name in ("root", "tip", "leading_edge", "trailing_edge", "tip_pressure_edge", "tip_suction_edge"):
+        dimension = 1 if name.startswith("tip_") else 2
+        gmsh.model.addPhysicalGroup(dimension, [_entity_of(dimension, tags[mesh.node_set(name)])], name=name)
     camber = tags[mesh.node_set("tip_camber_line")]
     if len(camber) > 1:
         line = gmsh.model.addDiscreteEntity(1)

@@ -27,21 +27,14 @@ USUAL_POINTS, MOST_USUAL_PATCHES = 8, 12
 """Numbers of contact nodes where none is chosen: of points, and of patches the most, as a coarse tip has room for fewer."""
 
 
-def usual_spacing(contact: str) -> str:
-    """The spacing of contact nodes of a kind where none is chosen.
-
-    Between the middle of an end patch and the blade's corner nothing holds the edge, so end patches are short.
-    """
-    return EVEN if contact == POINTS else COSINE
-
-
 @dataclass(frozen=True)
 class BoundaryChoice:
     """Positions of the contact nodes.
 
     With corners, node i of n lies at s = i/(n-1) of the chord; without, at s = (i + 1/2)/n. With a cosine `spacing` that is at
     (1 - cos(pi s))/2. `contact`: POINTS or PATCHES; see r37core.rom.contact_weights. A spacing of None is
-    usual_spacing; None `nodes` are as many as usual, of patches as many as a tip has room for: see `on`.
+    even of points and cosine of patches, for between the middle of an end patch and the blade's corner nothing holds the edge,
+    so end patches are short; None `nodes` are as many as usual, of patches as many as a tip has room for: see `on`.
     """
 
     tip_line: Annotated[str, Key("Tip line of the contact nodes", one_of=TIP_LINES)] = "pressure_edge"
@@ -62,7 +55,7 @@ class BoundaryChoice:
     @property
     def is_even(self) -> bool:
         """True where the contact nodes have equal distances."""
-        return (self.spacing or usual_spacing(self.contact)) == EVEN
+        return self.contact == POINTS if self.spacing is None else self.spacing == EVEN
 
     def on(self, chord: np.ndarray) -> Self:
         """The choice with a number of contact nodes, on a tip with nodes at fractions `chord` of its line."""
@@ -86,27 +79,19 @@ def contact_positions(choice: BoundaryChoice, chord: np.ndarray, place: str) -> 
     Raises BoundaryError where the nodes nearest to two points are the same, and unless one of the nodes lies between any two
     patches; `place`: what they are nodes of.
     """
-    positions = _positions_of_points if choice.contact == POINTS else _positions_of_patches
-    return positions(choice, chord, place)
-
-
-def _positions_of_points(choice: BoundaryChoice, chord: np.ndarray, place: str) -> np.ndarray:
-    count = choice.most_nodes
-    positions = choice.chord_positions(count)
-    nearest = np.abs(chord - positions[:, None]).argmin(axis=1) if len(chord) else np.empty(0, dtype=int)
-    if len(np.unique(nearest)) < count:
+    wanted = choice.on(chord).most_nodes
+    positions = choice.chord_positions(wanted)
+    if choice.contact == POINTS:
+        nearest = np.abs(chord - positions[:, None]).argmin(axis=1) if len(chord) else np.empty(0, dtype=int)
+        if len(np.unique(nearest)) == wanted:
+            return positions
         raise BoundaryError(
-            f"{count} boundary nodes do not fit on the {len(chord)} {place}; ask for fewer, {_even_instead(choice)}or raise "
+            f"{wanted} boundary nodes do not fit on the {len(chord)} {place}; ask for fewer, {_even_instead(choice)}or raise "
             "tip_elements (for the camber line also: an odd number of layers, or an even one with nodes at mid-thickness) in "
             "the fidelity level; of an imported mesh, refine the tip"
         )
-    return positions
-
-
-def _positions_of_patches(choice: BoundaryChoice, chord: np.ndarray, place: str) -> np.ndarray:
-    wanted = choice.on(chord).most_nodes
     if _resolves(choice, wanted, chord):
-        return choice.chord_positions(wanted)
+        return positions
     most = max((count for count in range(1, wanted) if _resolves(choice, count, chord)), default=0)
     reason = "because between two patches there must be a node" if most else "because a patch is made of two or more"
     raise BoundaryError(

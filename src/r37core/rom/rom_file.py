@@ -30,18 +30,44 @@ _ARRAYS = {
     "rotation_stiffening": (("rotation_shape",), "s2 rad-2", "relative stiffening of these shapes per squared speed"),
     "singular_values": (("basis_column",), "1", "singular values of the basis columns"),
 }
-_LOGARITHMIC = {
-    "linear": "change of the logarithm of the stiffness with the logarithm of 1 + rate times the squared speed",
-    "quadratic": "change with the square of that",
-}
 _LARGE = tuple(f"large_mode_{number}" for number in range(4))
-_QUADRATIC_TERMS: dict[str, tuple[tuple[str, ...], str, str]] = {
-    "coordinates": (("large_mode_0", "column"), "kg1/2", "mass product with the modes that have displacements of second order"),
-    "derivatives": (("power", "mode_pair", "column"), "1", "mass product with the static derivatives of these modes"),
-    "cubic": (("power", *_LARGE), "s-2 m-2 kg-1", "stiffness of third order of these modes where all others follow at once"),
-    "height": ((), "m", "height of the blade"),
-    "path_errors": (("path_share",), "m", "error of the tip's path against full finite elements"),
+_PARTS: dict[str, tuple[str, type, dict[str, tuple[tuple[str, ...], str, str]]]] = {
+    "logarithmic": (
+        "logarithmic_stiffness",
+        LogarithmicStiffness,
+        {
+            "linear": (
+                _SQUARE,
+                "kg",
+                "change of the logarithm of the stiffness with the logarithm of 1 + rate times the squared speed",
+            ),
+            "quadratic": (_SQUARE, "kg", "change with the square of that"),
+            "speeds": (("exact_speed",), "rad s-1", "speeds it is exact at"),
+            "rate": ((), "s2 rad-2", "rate of that logarithm"),
+        },
+    ),
+    "quadratic": (
+        "quadratic",
+        QuadraticTerms,
+        {
+            "coordinates": (
+                ("large_mode_0", "column"),
+                "kg1/2",
+                "mass product with the modes that have displacements of second order",
+            ),
+            "derivatives": (("power", "mode_pair", "column"), "1", "mass product with the static derivatives of these modes"),
+            "cubic": (
+                ("power", *_LARGE),
+                "s-2 m-2 kg-1",
+                "stiffness of third order of these modes where all others follow at once",
+            ),
+            "height": ((), "m", "height of the blade"),
+            "path_errors": (("path_share",), "m", "error of the tip's path against full finite elements"),
+        },
+    ),
 }
+"""Beginning of the names of variables -> field of the model, its class, and its fields."""
+
 _OF_NODES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "nodes": ((), "1", "mesh node numbers"),
     "points": (("axis",), "m", "coordinates"),
@@ -53,8 +79,7 @@ _REGION = "stress_"
 
 def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
     """Write the model; terms that it lacks are absent from the file."""
-    arrays = {name: array for name in _ARRAYS if (array := getattr(model, name)) is not None}
-    data: dict = {name: (_ARRAYS[name][0], array, about(*_ARRAYS[name][1:])) for name, array in arrays.items()}
+    data = _variables("", model, _ARRAYS)
     node_groups = {f"tip_{line}": nodes for line, nodes in model.tip_lines.items()}
     node_groups |= {"contact": model.contact_nodes}
     node_groups |= {_REGION + name: region.nodes for name, region in model.stress_regions.items()}
@@ -66,19 +91,8 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
             data[f"{group}_{part}"] = ((f"{group}_node", *axes), *content)
     for name, region in model.stress_regions.items():
         data |= _region_variables(_REGION + name, region)
-    if model.logarithmic_stiffness is not None:
-        for name, text in _LOGARITHMIC.items():
-            content = getattr(model.logarithmic_stiffness, name)
-            data[f"logarithmic_{name}"] = (_SQUARE, content, about("kg", text))
-        data["logarithmic_speeds"] = (
-            "exact_speed",
-            model.logarithmic_stiffness.speeds,
-            about("rad s-1", "speeds it is exact at"),
-        )
-        data["logarithmic_rate"] = ((), model.logarithmic_stiffness.rate, about("s2 rad-2", "rate of that logarithm"))
-    if model.quadratic is not None:
-        for name, (axes, units, text) in _QUADRATIC_TERMS.items():
-            data[f"quadratic_{name}"] = (axes, getattr(model.quadratic, name), about(units, text))
+    for group, (field, _, table) in _PARTS.items():
+        data |= _variables(f"{group}_", getattr(model, field), table)
     attributes = {
         "basis_columns": len(model.singular_values),
         "basis_independent_columns": model.size,
@@ -107,21 +121,23 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
             shape_names=tuple(str(name) for name in dataset["shape"].values),
             tolerance=float(dataset.attrs["basis_tolerance"]),
             quadratic_residual=float(dataset.attrs["quadratic_residual"]),
-            logarithmic_stiffness=_logarithmic_stiffness(dataset) if "logarithmic_rate" in dataset else None,
-            quadratic=_quadratic_terms(dataset) if "quadratic_cubic" in dataset else None,
+            **{field: _part(dataset, group, kind, table) for group, (field, kind, table) in _PARTS.items()},
         )
 
 
-def _logarithmic_stiffness(dataset: xr.Dataset) -> LogarithmicStiffness:
-    matrices = {name: dataset[f"logarithmic_{name}"].values for name in _LOGARITHMIC}
-    return LogarithmicStiffness(
-        **matrices, rate=float(dataset["logarithmic_rate"]), speeds=dataset["logarithmic_speeds"].values
-    )
+def _variables(begin: str, source: Any, table: Mapping[str, tuple[tuple[str, ...], str, str]]) -> dict[str, Any]:
+    """Variables of a table from the fields of a source, as xarray takes them; those that are None are left out."""
+    return {
+        f"{begin}{name}": (dims, value, about(*texts))
+        for name, (dims, *texts) in table.items()
+        if (value := getattr(source, name, None)) is not None
+    }
 
 
-def _quadratic_terms(dataset: xr.Dataset) -> QuadraticTerms:
-    values: dict[str, Any] = {name: dataset[f"quadratic_{name}"].values for name in _QUADRATIC_TERMS}
-    return QuadraticTerms(**values | {"height": float(values["height"])})
+def _part(dataset: xr.Dataset, group: str, kind: type, table: Mapping[str, Any]) -> Any:
+    """The part of the model whose variables begin with `group`; None where it has none."""
+    values = {name: dataset[f"{group}_{name}"].values for name in table if f"{group}_{name}" in dataset}
+    return kind(**{name: value if value.ndim else float(value) for name, value in values.items()}) if values else None
 
 
 def _region_variables(group: str, region: StressRegion) -> dict[str, tuple[Any, ...]]:

@@ -125,7 +125,8 @@ class RotatingBlade:
             followed = modes @ followed_modes(coordinates @ modes).T
             fields = [self._rotation.whole(field) for field in (vectors @ followed).T]
             pairs = self._paired(fields)
-            pushes = np.array([self._pushed(vectors, self._solid.second_derivative(displacement, *pair)) for pair in pairs])
+            forces = (self._rotation.free(self._solid.second_derivative(displacement, *pair)) for pair in pairs)
+            pushes = np.array([vectors.T @ force for force in forces])
             third = pairings(self._solid.strain_energies(pairs), count)
             modal = pushes @ modes
             static = -(modal / squares) @ modes.T
@@ -168,7 +169,3 @@ class RotatingBlade:
     @staticmethod
     def _paired(fields: list[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
         return [(fields[a], fields[b]) for a, b in zip(*mode_pairs(len(fields)), strict=True)]
-
-    def _pushed(self, vectors: np.ndarray, forces: np.ndarray) -> np.ndarray:
-        """Forces on the coordinates of a basis from those on all nodes."""
-        return vectors.T @ self._rotation.free(forces)

@@ -1,7 +1,6 @@
 """The stress operators of a reduced model."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as la
@@ -48,24 +47,22 @@ def _operator(model: ReducedModel, region: StressRegion, material: Material) -> 
     def second_order(first: np.ndarray, second: np.ndarray) -> np.ndarray:
         return second_order_stress(region.elements, nodes.points, first, second, material, inside)[:, evaluated]
 
-    rotation, large = nodes.rotation_shapes, None
+    rotation = nodes.rotation_shapes
+    large: dict[str, np.ndarray] = {}
     columns = [stress(basis), stress(rotation)]
     if model.logarithmic_stiffness is not None:
         columns[1] = _rotation_stress(model, model.logarithmic_stiffness.speeds, rotation, columns[1], second_order)
         # modes at rest below a frequency bend, and stretch nothing
         if band is None:
-            large = _large_motion(model, basis, rotation, second_order)
-    if large is not None:
-        columns.insert(1, large.products)
+            products, large = _large_motion(model, basis, rotation, second_order)
+            columns.insert(1, products)
     return StressOperator(
         operator=np.concatenate(columns, axis=2),
         coordinates=model.size,
         region=region.description,
         band=None if band is None else band[0],
         places=region.places,
-        per_rotation=None if large is None else large.per_rotation,
-        rotation_stiffening=None if large is None else model.rotation_stiffening,
-        large_coordinates=None if large is None else large.coordinates,
+        **large,
     )
 
 
@@ -89,16 +86,10 @@ def _rotation_stress(
     return np.tensordot(np.stack(per_square, axis=-1), shares, axes=([-1], [1]))
 
 
-@dataclass(frozen=True)
-class _LargeMotion:
-    """Parts that large displacements add to a stress operator, see there; `products`: columns of those of second order."""
-
-    per_rotation: np.ndarray
-    coordinates: np.ndarray
-    products: np.ndarray
-
-
-def _large_motion(model: ReducedModel, basis: np.ndarray, rotation: np.ndarray, second_order: SecondOrder) -> _LargeMotion:
+def _large_motion(
+    model: ReducedModel, basis: np.ndarray, rotation: np.ndarray, second_order: SecondOrder
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """What large displacements add to a stress operator: columns of the products of second order, and fields, see there."""
     per_rotation = np.stack(
         [second_order(np.broadcast_to(shape[..., None], basis.shape), basis) for shape in np.moveaxis(rotation, 2, 0)]
     )
@@ -106,7 +97,8 @@ def _large_motion(model: ReducedModel, basis: np.ndarray, rotation: np.ndarray, 
     first, second = mode_pairs(len(coordinates))
     fields = basis @ la.solve(model.mass, coordinates.T)
     weights = np.where(first == second, 0.5, 1.0)
-    return _LargeMotion(per_rotation, coordinates, weights * second_order(fields[..., first], fields[..., second]))
+    large = {"per_rotation": per_rotation, "rotation_stiffening": model.rotation_stiffening, "large_coordinates": coordinates}
+    return weights * second_order(fields[..., first], fields[..., second]), large
 
 
 def _band(model: ReducedModel, region: StressRegion) -> tuple[np.ndarray, np.ndarray] | None:

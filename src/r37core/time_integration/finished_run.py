@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -42,6 +43,6 @@ class FinishedRun:
         """Place of the blade whose spectrum is kept, by the displacement (m) of each in the statistic, see numbers_of_run."""
         return 0
 
-    def numbers_of_each(self, samples: Sequence[np.ndarray], history: np.ndarray | None) -> dict[str, np.ndarray]:
+    def numbers_of_each(self, samples: Sequence[np.ndarray], history: np.ndarray | None) -> dict[str, Any]:
         """Numbers of each blade, none of a single one."""
         return {}

@@ -1,5 +1,7 @@
 """Results kept of a run at one speed: numbers of its samples, snapshots and wear, as its file has them."""
 
+from typing import Any
+
 import numpy as np
 from numpy.fft import rfft  # NumPy imports it when it is used, which would be in each of a server's jobs
 
@@ -31,10 +33,7 @@ KEPT = LEADING_EDGE
 def whole(samples: np.ndarray, count: int, diverged: bool) -> np.ndarray:
     """Samples extended to the `count` asked for: NaN from where a run ended, and in place of the last one that diverged."""
     # which may be infinite
-    reached = len(samples) - diverged
-    if reached == count:
-        return samples
-    return extended(samples[:reached], count)
+    return extended(samples[: len(samples) - diverged], count)
 
 
 def largest_of_each(revolutions: int, samples: np.ndarray) -> np.ndarray:
@@ -51,24 +50,24 @@ def extended(values: np.ndarray, count: int) -> np.ndarray:
     return np.concatenate([values, np.full((count - len(values), *values.shape[1:]), np.nan)])
 
 
-def status_numbers(problem: Problem, reached: float | None) -> dict[str, np.ndarray]:
+def status_numbers(problem: Problem, reached: float | None) -> dict[str, Any]:
     """Status of a run, and what it was made with: see run_speed. `reached`: revolution of a divergence, None without one."""
     diverged_at = np.nan if reached is None else reached
     return {
-        "status": np.array(int(RunStatus.COMPLETED if reached is None else RunStatus.DIVERGED)),
-        "speed": np.array(problem.speed),
-        "diverged_revolution": np.array(diverged_at),
-        "diverged_time": np.array(diverged_at * 2.0 * np.pi / problem.speed),
-        "time_step": np.array(problem.grid.time_step),
-        "casing_cone_angle": np.array(problem.casing.cone_angle),
-        "lined": np.array(int(problem.scene.lined)),
-        "casing_lobes": np.array(problem.scene.casing.lobes),
+        "status": int(RunStatus.COMPLETED if reached is None else RunStatus.DIVERGED),
+        "speed": problem.speed,
+        "diverged_revolution": diverged_at,
+        "diverged_time": diverged_at * 2.0 * np.pi / problem.speed,
+        "time_step": problem.grid.time_step,
+        "casing_cone_angle": problem.casing.cone_angle,
+        "lined": int(problem.scene.lined),
+        "casing_lobes": problem.scene.casing.lobes,
     }
 
 
 def snapshot_numbers(
     problem: Problem, record: SimulationRecord, stress: StressOperators | None, static_stress: bool
-) -> dict[str, np.ndarray]:
+) -> dict[str, Any]:
     """Numbers kept of the snapshots of the last revolution: see run_speed."""
     shapes = problem.model.to_reduced @ problem.contact.state_shapes
     coordinates = record.snapshots[-problem.choice.snapshots_per_revolution :] @ shapes.T
@@ -81,10 +80,10 @@ def snapshot_numbers(
     largest = [np.nan if record.diverged else operator.max_von_mises(coordinates).max() for operator in stress.values()]
     return {
         "snapshots": coordinates,
-        "region": np.array(list(stress)),
-        "max_von_mises_last_revolution": np.array(largest),
-        "stress_region": np.array([operator.region for operator in stress.values()]),
-        "static_stress": np.array(int(judged_operator(stress).have_rotation(coordinates))),
+        "region": list(stress),
+        "max_von_mises_last_revolution": largest,
+        "stress_region": [operator.region for operator in stress.values()],
+        "static_stress": int(judged_operator(stress).have_rotation(coordinates)),
     }
 
 
@@ -176,7 +175,7 @@ def amplitudes(values: np.ndarray) -> np.ndarray:
     return sizes
 
 
-def wear_numbers(wear: np.ndarray, angles: int, lining: Lining, cut: np.ndarray) -> dict[str, np.ndarray]:
+def wear_numbers(wear: np.ndarray, angles: int, lining: Lining, cut: np.ndarray) -> dict[str, Any]:
     """Largest `wear` (m), shape (rings, bars), over the rings: in each of `angles` sectors, and its lobes.
 
     And the thickness of the `lining` that is used, and the share of the bars that are worn through to the casing behind it, in
@@ -190,9 +189,9 @@ def wear_numbers(wear: np.ndarray, angles: int, lining: Lining, cut: np.ndarray)
     depths = np.maximum.reduceat(profile, sectors) if len(profile) >= angles else profile[sectors]
     return {
         "wear": depths.astype(np.float32),
-        "max_wear": np.array(profile.max()),
-        "used_thickness": np.array(max(used, float(cut.max()))),
-        "worn_through_share": np.array(np.mean(through.any(axis=0))),
+        "max_wear": profile.max(),
+        "used_thickness": max(used, float(cut.max())),
+        "worn_through_share": np.mean(through.any(axis=0)),
         "wear_harmonic": amplitudes(profile)[: _WEAR_LOBES + 1],
     }
 
@@ -210,18 +209,18 @@ def energy_balance(work: float, loss: float, change: float, stiffness_work: floa
     }
 
 
-def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, np.ndarray]:
+def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, Any]:
     """Numbers that the model's limits are of (results.limits), from the `totals` of each blade, shape (blades,).
 
     `energy_residual_share`: of the largest of contact work, loss and energy change.
     """
     balance = energy_balance(run.contact_work, float(totals["loss"].sum()), run.energy_change)
-    *parts, residual = (abs(float(part)) for part in balance.values())
+    *parts, residual = map(abs, balance.values())
     return {
-        "energy_residual_share": np.array(residual / max(parts) if max(parts) else 0.0),
-        "bounded_share_of_time": np.array((totals["steps_bounded"] / np.maximum(totals["steps"], 1.0)).max()),
-        "friction_power": np.array(run.ending.friction_power),
-        "melting_power": np.array(MELTING * run.problem.model.tip_lengths.sum()),
+        "energy_residual_share": residual / max(parts) if max(parts) else 0.0,
+        "bounded_share_of_time": (totals["steps_bounded"] / np.maximum(totals["steps"], 1.0)).max(),
+        "friction_power": run.ending.friction_power,
+        "melting_power": MELTING * run.problem.model.tip_lengths.sum(),
     }
 
 

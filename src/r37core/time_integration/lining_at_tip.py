@@ -10,7 +10,7 @@ from r37core.rom.contact_model import ContactModel
 from .speed_arrays import OF_LINING
 
 
-def lining_at_tip(model: ContactModel, scene: Scene) -> dict[str, np.ndarray]:
+def lining_at_tip(model: ContactModel, scene: Scene) -> dict[str, float]:
     """Numbers of OF_LINING of a blade's `model` in a lined `scene`; empty without a lining.
 
     `lining_elastic_stiffness` (N/m): E A/e of the lining under all contact nodes, with its modulus E, thickness e and the
@@ -27,4 +27,4 @@ def lining_at_tip(model: ContactModel, scene: Scene) -> dict[str, np.ndarray]:
     mean_rows = lengths / lengths.sum() @ normal
     width = areas.sum() / (lining.arc(model.tip_radius) if lining.published else lining.contact_length)
     values = (elastic, plastic, 1.0 / np.sum(mean_rows**2 / model.squared_frequencies), width / lengths.sum())
-    return {name: np.array(value) for name, value in zip(OF_LINING, values, strict=True)}
+    return dict(zip(OF_LINING, values, strict=True))

@@ -123,10 +123,10 @@ def kind_of_motion(simulation: Simulation, state: SimulationState) -> KindNumber
     return KindNumbers(_kind(exponent, error, recurrence, period), exponent, error, recurrence, period / per_revolution)
 
 
-def kind_numbers(problem: Problem, state: SimulationState, *, diverged: bool) -> dict[str, np.ndarray]:
+def kind_numbers(problem: Problem, state: SimulationState, *, diverged: bool) -> dict[str, float]:
     """Numbers of the kind of the motion after a run, as its file has them; unknown of one that has `diverged`."""
     motion = KindNumbers(MotionKind.UNKNOWN) if diverged else kind_of_motion(Simulation.build(problem), state)
-    return {name: np.array(value) for name, value in motion.values.items()}
+    return motion.values
 
 
 def _size(coordinates: np.ndarray) -> float:

@@ -1,7 +1,6 @@
 """The blades of a rotor as problems of their own: what mistuning and length change of each."""
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 
@@ -38,23 +37,17 @@ def blade_problems(
     if scene.casing.ring and not choice.second_order:
         raise ValueError("an elastic casing under a rotor needs the integrator exact_modal")
 
-    @cache
-    def problem(factor: float, longer: float, angle: float) -> Problem:
-        own = replace(scene, rotor=None, casing=replace(scene.casing, longer=longer))
-        return stable_problem(turned(mistuned(model, factor), angle), speed, own, choice)
-
     angles = rotor.angles if scene.casing.ring else (0.0,) * len(rotor.angles)
     blades = list(zip(rotor.frequency_factors, rotor.longer, angles, strict=True))
-    steps = max(problem(*blade).grid.steps_per_sample for blade in blades)
-
-    @cache
-    def problem_of_steps(factor: float, longer: float, angle: float) -> Problem:
-        own = problem(factor, longer, angle)
-        if own.grid.steps_per_sample == steps:
-            return own
-        return Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))
-
-    problems = tuple(problem_of_steps(*blade) for blade in blades)
+    unlike = {}
+    for factor, longer, angle in dict.fromkeys(blades):
+        own_scene = replace(scene, rotor=None, casing=replace(scene.casing, longer=longer))
+        unlike[factor, longer, angle] = stable_problem(turned(mistuned(model, factor), angle), speed, own_scene, choice)
+    steps = max(own.grid.steps_per_sample for own in unlike.values())
+    for blade, own in unlike.items():
+        if own.grid.steps_per_sample != steps:
+            unlike[blade] = Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))
+    problems = tuple(unlike[blade] for blade in blades)
     if scene.casing.ring:
         try:
             check_rotor_step([problem.contact for problem in problems])

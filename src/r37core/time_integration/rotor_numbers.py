@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.fft import rfft
@@ -31,7 +32,7 @@ class RotorRun(FinishedRun):
         """Place of the blade with the largest motion in the statistic; of a diverged run, of the one that diverged first."""
         return int(_rms(statistic).argmax()) if self.first_diverged is None else self.first_diverged
 
-    def numbers_of_each(self, samples: Sequence[np.ndarray], history: np.ndarray | None) -> dict[str, np.ndarray]:
+    def numbers_of_each(self, samples: Sequence[np.ndarray], history: np.ndarray | None) -> dict[str, Any]:
         """Numbers of each blade, shape (blades,) first, of the motion of its leading edge, normal and tangential (KEPT).
 
         `samples` (m): displacement of each blade, shape (samples, 2, 3). `history` (Pa): largest stress, shape (blades,
@@ -49,17 +50,17 @@ class RotorRun(FinishedRun):
         maxima = motion.reshape(len(motion), choice.revolutions, -1).max(axis=2)
         growth, span = span_maxima(maxima)
         numbers = {
-            "blade_number": np.array(rotor.numbers),
-            "blade_angle": np.array(rotor.angles),
-            "blade_frequency_factor": np.array(rotor.frequency_factors),
-            "blade_longer": np.array(rotor.longer),
+            "blade_number": rotor.numbers,
+            "blade_angle": rotor.angles,
+            "blade_frequency_factor": rotor.frequency_factors,
+            "blade_longer": rotor.longer,
             "blade_rms": _rms(half),
             "blade_peak": maxima[:, choice.revolutions // 2 :].max(axis=1),
             "blade_maximum": growth,
             "blade_contact": totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0),
             "blade_worn": self.worn,
-            "span_revolutions": np.array(span),
-            "leader": np.array(rotor.numbers[self.leader(half)]),
+            "span_revolutions": span,
+            "leader": rotor.numbers[self.leader(half)],
             **nodal_diameters(np.array([part[:, 0, KEPT] for part in half]), self.late, rotor),
         }
         if history is not None:

@@ -38,7 +38,8 @@ class Simulation:
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         if scene.rotor is not None:
             raise ValueError("a scene with a rotor: see RotorSimulation")
-        self._take(stable_problem(model, speed, scene, choice))
+        self.problem = stable_problem(model, speed, scene, choice)
+        self.engine = self.engine_class(self.problem, own_segment(self.problem), None, None)
 
     @classmethod
     def build(
@@ -53,18 +54,9 @@ class Simulation:
         `before`, `beside`: engines of the same scene and choice, see LaidOutProblem.
         """
         simulation = cls.__new__(cls)
-        simulation._take(problem, segments, before, beside)
+        simulation.problem = problem
+        simulation.engine = cls.engine_class(problem, segments or own_segment(problem), before, beside)
         return simulation
-
-    def _take(
-        self,
-        problem: Problem,
-        segments: Segments | None = None,
-        before: CompiledEngine | None = None,
-        beside: CompiledEngine | None = None,
-    ) -> None:
-        self.problem = problem
-        self.engine = self.engine_class(problem, segments or own_segment(problem), before, beside)
 
     def start(self, motion: InitialMotion | CarriedMotion | None = None) -> SimulationState:
         """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.

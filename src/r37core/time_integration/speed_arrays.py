@@ -7,11 +7,14 @@ are the largest of all blades, sums of hits and energies, the spectrum of the bl
 the largest stress. A diverged run has NaN where a number would need the rest of it.
 """
 
+from functools import partial
+
 from r37core.base.variable import Variable
 
 from .settling import MotionAtEnd
 from .status import MotionKind, RunStatus
 
+_number = partial(Variable, ())
 _TIP, _REGION, _BLADES = ("tip_point",), ("region",), ("blade_number",)
 _LEADING_EDGE = "the leading edge's displacement, normal and tangential together,"
 _HISTORY = "largest von Mises stress of each of the last revolutions, which have snapshots"
@@ -24,8 +27,8 @@ PLACES = {
 """Numbers of a place on the blade, as BladeMesh has them."""
 
 STATUS = {
-    "status": Variable((), "1", "how the run ended", "i1", RunStatus),
-    "diverged_revolution": Variable((), "1", "revolution at which the run diverged"),
+    "status": _number("1", "how the run ended", "i1", RunStatus),
+    "diverged_revolution": _number("1", "revolution at which the run diverged"),
 }
 
 SIZES = {
@@ -34,43 +37,43 @@ SIZES = {
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
         for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
     },
-    "peak_share_of_height": Variable((), "1", "largest displacement over the blade's height"),
-    "share_of_height_limit": Variable((), "1", "share of the height beyond which second order leaves full finite elements"),
+    "peak_share_of_height": _number("1", "largest displacement over the blade's height"),
+    "share_of_height_limit": _number("1", "share of the height beyond which second order leaves full finite elements"),
 }
 
 MOTION = {
-    "bounded_share_of_time": Variable((), "1", "share of the steps in which the bound on the elastic energy acts"),
-    "energy_residual_share": Variable((), "1", "size of the energy residual over the largest of work, loss and energy change"),
-    "friction_power": Variable((), "W", "mean power of the friction over the later revolutions, of a rotor over all"),
-    "melting_power": Variable((), "W", "power of the friction of which a tenth melts the tip in a second"),
-    "motion_at_end": Variable((), "1", "state of the motion at the end of the run", "i1", MotionAtEnd),
-    "settled_revolution": Variable((), "1", "revolution after which the run ended as it had settled, NaN where it did not"),
-    "time_step": Variable((), "s", "step of the time integration that was taken"),
+    "bounded_share_of_time": _number("1", "share of the steps in which the bound on the elastic energy acts"),
+    "energy_residual_share": _number("1", "size of the energy residual over the largest of work, loss and energy change"),
+    "friction_power": _number("W", "mean power of the friction over the later revolutions, of a rotor over all"),
+    "melting_power": _number("W", "power of the friction of which a tenth melts the tip in a second"),
+    "motion_at_end": _number("1", "state of the motion at the end of the run", "i1", MotionAtEnd),
+    "settled_revolution": _number("1", "revolution after which the run ended as it had settled, NaN where it did not"),
+    "time_step": _number("s", "step of the time integration that was taken"),
     "clearance": Variable(("contact_node",), "m", "clearance of the round casing at the contact nodes, leading edge first"),
-    "share_of_time_in_contact": Variable((), "1", "share of the steps with a contact force"),
-    "largest_normal_force": Variable((), "N", "largest normal force on a tip node"),
-    "largest_penetration": Variable((), "m", "largest penetration of the tip's edge into the casing"),
-    "casing_hits": Variable((), "1", "how often a tip node came upon the casing"),
-    "worst_complementarity": Variable((), "1", "largest relative violation of the contact conditions"),
-    "contact_work": Variable((), "J", "work of the contact forces on the blade"),
-    "damping_loss": Variable((), "J", "energy lost to damping"),
-    "energy_change": Variable((), "J", "energy of the vibration at the end, less that at the start"),
-    "energy_residual": Variable((), "J", "energy change minus contact work plus damping loss"),
+    "share_of_time_in_contact": _number("1", "share of the steps with a contact force"),
+    "largest_normal_force": _number("N", "largest normal force on a tip node"),
+    "largest_penetration": _number("m", "largest penetration of the tip's edge into the casing"),
+    "casing_hits": _number("1", "how often a tip node came upon the casing"),
+    "worst_complementarity": _number("1", "largest relative violation of the contact conditions"),
+    "contact_work": _number("J", "work of the contact forces on the blade"),
+    "damping_loss": _number("J", "energy lost to damping"),
+    "energy_change": _number("J", "energy of the vibration at the end, less that at the start"),
+    "energy_residual": _number("J", "energy change minus contact work plus damping loss"),
     "revolution_maximum": Variable(("revolution", "tip_point"), "m", "largest normal displacement of each revolution", "f4"),
 }
 
 OF_KIND = {
-    "motion_kind": Variable((), "1", "kind of the motion that goes on after the run", "i1", MotionKind),
-    "lyapunov_exponent": Variable((), "1", "largest Lyapunov exponent per revolution of the motion after the run"),
-    "lyapunov_exponent_error": Variable((), "1", "standard error of the Lyapunov exponent"),
-    "recurrence": Variable((), "1", "distance of the state from that a period before, as a share of its size"),
-    "recurrence_period": Variable((), "1", "period of the motion in revolutions, after which it comes nearest to itself"),
+    "motion_kind": _number("1", "kind of the motion that goes on after the run", "i1", MotionKind),
+    "lyapunov_exponent": _number("1", "largest Lyapunov exponent per revolution of the motion after the run"),
+    "lyapunov_exponent_error": _number("1", "standard error of the Lyapunov exponent"),
+    "recurrence": _number("1", "distance of the state from that a period before, as a share of its size"),
+    "recurrence_period": _number("1", "period of the motion in revolutions, after which it comes nearest to itself"),
 }
 """Variables of KindNumbers."""
 
 GIVEN_MOTION = {
-    "initial_energy": Variable((), "J", "energy of the vibration at the start"),
-    "initial_energy_left_out": Variable((), "1", "share of the given motion's energy that lies in modes which are not stepped"),
+    "initial_energy": _number("J", "energy of the vibration at the start"),
+    "initial_energy_left_out": _number("1", "share of the given motion's energy that lies in modes which are not stepped"),
 }
 
 SPECTRUM = {
@@ -98,12 +101,12 @@ OF_NODES = {
 
 WEAR = {
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
-    "max_wear": Variable((), "m", "largest wear of the lining at the end"),
-    "wear_growth": Variable((), "m", "largest growth of a bar's wear in the last 50 revolutions, or quarter of the run"),
-    "used_thickness": Variable(
-        (), "m", "lining thickness used: deepest penetration that left wear; all of it where the lining is worn through"
+    "max_wear": _number("m", "largest wear of the lining at the end"),
+    "wear_growth": _number("m", "largest growth of a bar's wear in the last 50 revolutions, or quarter of the run"),
+    "used_thickness": _number(
+        "m", "lining thickness used: deepest penetration that left wear; all of it where the lining is worn through"
     ),
-    "worn_through_share": Variable((), "1", "share of the circumference at which the lining is worn through, at the end"),
+    "worn_through_share": _number("1", "share of the circumference at which the lining is worn through, at the end"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
 }
 
@@ -121,16 +124,16 @@ WAVES = {
 }
 
 OF_SCENE = {
-    "casing_cone_angle": Variable((), "rad", "half angle of the casing's cone, negative where it narrows downstream"),
-    "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "f4"),
-    "casing_lobes": Variable((), "1", "number of the casing's lobes", "f4"),
+    "casing_cone_angle": _number("rad", "half angle of the casing's cone, negative where it narrows downstream"),
+    "lined": _number("1", "1 where a lining is worn, 0: the tip meets the casing itself", "f4"),
+    "casing_lobes": _number("1", "number of the casing's lobes", "f4"),
 }
 
 OF_LINING = {
-    "lining_elastic_stiffness": Variable((), "N m-1", "stiffness of the elastic lining under the whole tip"),
-    "lining_plastic_stiffness": Variable((), "N m-1", "stiffness of the lining under the whole tip while it wears"),
-    "tip_stiffness": Variable((), "N m-1", "stiffness of the blade at rest under a normal force spread along its tip"),
-    "lined_tip_share": Variable((), "1", "width of lining over length of tip, both along the casing's meridian"),
+    "lining_elastic_stiffness": _number("N m-1", "stiffness of the elastic lining under the whole tip"),
+    "lining_plastic_stiffness": _number("N m-1", "stiffness of the lining under the whole tip while it wears"),
+    "tip_stiffness": _number("N m-1", "stiffness of the blade at rest under a normal force spread along its tip"),
+    "lined_tip_share": _number("1", "width of lining over length of tip, both along the casing's meridian"),
 }
 
 OF_CASING = {
@@ -140,7 +143,7 @@ OF_CASING = {
 
 OF_STRESS = {
     "stress_region": Variable(_REGION, "1", "where stress is looked for", "str"),
-    "static_stress": Variable((), "1", "1 where stresses have that of rotation, 0: vibration alone", "f4"),
+    "static_stress": _number("1", "1 where stresses have that of rotation, 0: vibration alone", "f4"),
 }
 
 AXES = {
@@ -151,10 +154,10 @@ AXES = {
 }
 
 _IN_FILE = {
-    "speed": Variable((), "rad s-1", "angular speed of the rotor"),
-    "diverged_time": Variable((), "s", "time at which the run diverged"),
-    "statistic_end": Variable((), "1", "last of the later revolutions"),
-    "statistic_revolutions": Variable((), "1", "number of the later revolutions"),
+    "speed": _number("rad s-1", "angular speed of the rotor"),
+    "diverged_time": _number("s", "time at which the run diverged"),
+    "statistic_end": _number("1", "last of the later revolutions"),
+    "statistic_revolutions": _number("1", "number of the later revolutions"),
     "revolution_rms": Variable(("done_revolution",), "m", f"rms of {_LEADING_EDGE} in each revolution until the end"),
     "region": Variable(_REGION, "1", "name of the region", "str"),
     "revolution_von_mises": Variable(("region", "recorded_revolution"), "Pa", _HISTORY),
@@ -174,7 +177,7 @@ OF_ROTOR = {
     "blade_maximum": Variable((*_BLADES, "span"), "m", f"largest value of {_LEADING_EDGE} in the span", "f4"),
     "blade_contact": Variable(_BLADES, "1", "share of the steps with a contact force"),
     "blade_worn": Variable(_BLADES, "m3", "volume of lining that the blade has worn off, of bars of the scene's width"),
-    "leader": Variable((), "1", "number of the blade with the largest blade_rms; where the run diverged, that did first", "i4"),
+    "leader": _number("1", "number of the blade with the largest blade_rms; where the run diverged, that did first", "i4"),
     "nodal_diameter_share": Variable(
         ("nodal_diameter",),
         "1",
@@ -187,7 +190,7 @@ OF_ROTOR = {
     "nodal_diameter": Variable(
         ("nodal_diameter",), "1", "nodal diameters; positive for a wave that runs in the sense of growing theta", "i4"
     ),
-    "span_revolutions": Variable((), "1", "revolutions of a span"),
+    "span_revolutions": _number("1", "revolutions of a span"),
     "blade_revolution_von_mises": Variable((*_BLADES, "recorded_revolution"), "Pa", _HISTORY),
 }
 

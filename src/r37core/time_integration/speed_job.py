@@ -5,7 +5,7 @@ import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, TypeVar
+from typing import Any
 
 from r37core.base.io import JOB_LOG, as_list, readable
 from r37core.base.plain import from_json, from_plain
@@ -29,7 +29,6 @@ class Task:
     kept: Mapping[str, int]
 
 
-_Model = TypeVar("_Model")
 _READY = set[tuple[str, str]]()
 
 
@@ -88,7 +87,7 @@ def make_ready(input: Any, params: Any) -> None:
             _ = operator.deviatoric
 
 
-def _kept(read: Callable[[str], _Model], file: str) -> _Model:
+def _kept(read: Callable[[str], Any], file: str) -> Any:
     """The model of a file, read once for all runs of this process and of those forked from it. Raises InputFileError."""
     with readable(file):
         status = os.stat(file)
@@ -96,6 +95,6 @@ def _kept(read: Callable[[str], _Model], file: str) -> _Model:
 
 
 @lru_cache(maxsize=32)
-def _read_as_of(read: Callable[[str], _Model], file: str, changed: int, size: int) -> _Model:
+def _read_as_of(read: Callable[[str], Any], file: str, changed: int, size: int) -> Any:
     """`changed` and `size` tell a file from one that is written in its place."""
     return read(file)

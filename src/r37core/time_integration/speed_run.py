@@ -1,6 +1,7 @@
 """Run at one speed in one scene, from model to the small set of numbers that its file keeps."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -91,17 +92,17 @@ def numbers_of_run(
         **kept_numbers.in_directions("rms", np.max([np.sqrt(np.mean(part**2, axis=0)) for part in statistic], axis=0)),
         **kept_numbers.in_directions("peak", np.max([part[first:revolutions].max(axis=0) for part in maxima], axis=0)),
         "revolution_maximum": reached[..., DIRECTIONS.index("normal")],
-        "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
-        "largest_normal_force": np.array(totals["largest_force"].max()),
+        "share_of_time_in_contact": (totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max(),
+        "largest_normal_force": totals["largest_force"].max(),
         # a tip line that is known at its contact nodes alone does not say it
-        "largest_penetration": np.array(totals["largest_penetration"].max() if edge_is_known else np.nan),
-        "casing_hits": np.array(totals["casing_hits"].sum()),
-        "worst_complementarity": np.array(totals["worst_complementarity"].max()),
+        "largest_penetration": totals["largest_penetration"].max() if edge_is_known else np.nan,
+        "casing_hits": totals["casing_hits"].sum(),
+        "worst_complementarity": totals["worst_complementarity"].max(),
     }
     if model.quadratic is not None:
         # as far as a run got that diverged
         numbers["peak_share_of_height"] = np.max(reached, where=np.isfinite(reached), initial=0.0) / model.quadratic.height
-        numbers["share_of_height_limit"] = np.array(model.quadratic.share_within(PATH_ERROR * scene.casing.clearance))
+        numbers["share_of_height_limit"] = model.quadratic.share_within(PATH_ERROR * scene.casing.clearance)
     numbers |= kept_numbers.limit_numbers(run, totals)
     numbers |= ending_numbers(run, samples)
     if scene.rotor is None:
@@ -123,7 +124,7 @@ def numbers_of_run(
         wear = np.max([state.wear for state in run.states], axis=0)
         cut = np.max([each.casing.initial_wear for each in run.problems], axis=0)
         numbers |= kept_numbers.wear_numbers(wear, min(wear_angles, scene.lining.bars), scene.lining, cut)
-        numbers["wear_growth"] = np.array(run.ending.wear_growth)
+        numbers["wear_growth"] = run.ending.wear_growth
     if "energy" in results:
         numbers |= kept_numbers.energy_balance(run.contact_work, float(totals["loss"].sum()), run.energy_change)
     if "casing" in results:
@@ -131,10 +132,11 @@ def numbers_of_run(
         numbers |= kept_numbers.casing_numbers(problem, run.records[0], revolutions, spectrum_highest_order)
     if "motion_kind" in results:
         numbers |= kind_numbers(problem, run.states[0], diverged=ended is not None)
-    return numbers | run.numbers_of_each(samples, None if history is None else history[0])
+    numbers |= run.numbers_of_each(samples, None if history is None else history[0])
+    return {name: np.asarray(value) for name, value in numbers.items()}
 
 
-def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str, np.ndarray]:
+def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str, Any]:
     """How a run ended, from the displacement `samples` (m) of each blade, shape (samples, 2, 3).
 
     `motion_at_end`: the worst MotionAtEnd of all blades; `settled_revolution`: after which a run ended as it had settled, else
@@ -149,17 +151,17 @@ def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str,
     rms = [revolution_rms(part[:, 0, LEADING_EDGE], choice.samples_per_revolution) for part in samples]
     motions = [motion_at_end(part, clearance, wear, ending.wear_growth, ending.contact_steps) for part in rms]
     return {
-        "motion_at_end": np.array(int(max(motions))),
-        "settled_revolution": np.array(float(ending.revolutions) if ending.settled else np.nan),
-        "statistic_end": np.array(ending.revolutions),
-        "statistic_revolutions": np.array(choice.revolutions_in_statistic),
+        "motion_at_end": int(max(motions)),
+        "settled_revolution": float(ending.revolutions) if ending.settled else np.nan,
+        "statistic_end": ending.revolutions,
+        "statistic_revolutions": choice.revolutions_in_statistic,
         "revolution_rms": np.max(rms, axis=0),
     }
 
 
 def _stress(
     run: FinishedRun, stress: StressOperators | None, history: np.ndarray | None, results: Sequence[str]
-) -> dict[str, np.ndarray]:
+) -> dict[str, Any]:
     """Numbers of the blade with the largest stress (snapshot_numbers), the largest of the `history`, and fatigue."""
     shown = run.first_diverged or 0
     if history is not None and run.first_diverged is None:
