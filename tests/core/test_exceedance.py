@@ -21,6 +21,9 @@ rows_of = partial(rows_above_yield, name=lambda _: {})
 span = partial(SpeedRange, truncated=False)
 
 
+SPEEDS = np.arange(900.0, 1001.0, 10.0)
+
+
 def drawn(chance, speeds, revolutions=100, seed=0):
     """Shares of so many revolutions above yield, where each is so with a known chance."""
     return np.random.default_rng(seed).binomial(revolutions, chance) / revolutions + 0.0 * speeds
@@ -153,8 +156,8 @@ def test_a_border_that_chance_makes_or_the_speeds_cut_has_no_scatter():
     assert np.isnan(from_the_first.scatter_of_border(SOME_REVOLUTIONS, from_the_first.ranges(SOME_REVOLUTIONS)[0], begins=True))
 
 
-def response(speeds, shares, motion, *, lined=0, ever=None, status=None, tangential=None):
-    shares = np.asarray(shares)
+def response(speeds, shares, motion=None, *, lined=0, ever=None, status=None, tangential=None):
+    shares, motion = np.asarray(shares), np.ones(len(speeds)) if motion is None else motion
     of_speed = {
         "status": np.zeros(len(speeds), int) if status is None else status,
         "rms_normal": np.asarray(motion, float),
@@ -191,7 +194,7 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     shares = drawn(rising(speeds), speeds)
     shares[20], ever = 0.09, 1e9 * (0.5 + shares)
     ever[40] = 1.1e9
-    rows = rows_of(response(speeds, shares, np.ones(len(speeds)), ever=ever), [])
+    rows = rows_of(response(speeds, shares, ever=ever), [])
     for speed in speeds[(shares > SOME_REVOLUTIONS) | (ever > 1e9)]:
         assert any(every["some_revolutions_from_rad_s"] <= speed <= every["some_revolutions_to_rad_s"] for every in rows), speed
     assert [every["length_most_revolutions_rad_s"] > 0.0 for every in rows] == [False, False, True]
@@ -213,7 +216,7 @@ def test_the_scatter_of_a_peak_is_its_distance_from_the_line_between_its_neighbo
     (few,) = rows_of(response(speeds, np.ones(3), np.array([1.0, 2.0, 4.0]) / np.sqrt(2.0)), [])
     share = (speeds[1] - speeds[0]) / (speeds[2] - speeds[0])
     assert few["peak_motion_scatter_m"] == pytest.approx(1.4826 / np.sqrt(1.5) * abs(1.0 - 3.0 * share))
-    (two,) = rows_of(response(speeds[:2], np.ones(2), np.ones(2)), [])
+    (two,) = rows_of(response(speeds[:2], np.ones(2)), [])
     assert np.isnan(two["peak_motion_scatter_m"])
 
 
@@ -265,19 +268,18 @@ def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
 
 def test_robustness_counts_diverged_runs_as_above_yield():
     """Also where all diverge, and there is no motion."""
-    speeds = np.arange(900.0, 1001.0, 10.0)
-    status = np.where(speeds == 950.0, RunStatus.DIVERGED, RunStatus.COMPLETED)
+    status = np.where(SPEEDS == 950.0, RunStatus.DIVERGED, RunStatus.COMPLETED)
     shares = np.where(status == RunStatus.DIVERGED, np.nan, 0.0)
-    one = response(speeds, shares, np.ones(len(speeds)), lined=1, status=status)
+    one = response(SPEEDS, shares, lined=1, status=status)
     assert exceedance_of(one).shares.max() == 1.0
     found = robustness(one)
     assert set(found) == set(names(ROBUSTNESS))
     expected = {"length_most_revolutions_rad_s": 10.0, "largest_gap_rad_s": 10.0, "ranges_most_revolutions": 1}
     expected |= {"widest_range_rad_s": 10.0, "widest_range_from_rad_s": 945.0}
     assert expected.items() <= found.items()
-    assert robustness(response(speeds, np.zeros(11), np.ones(11), lined=1))["widest_range_rad_s"] == 0.0
-    nothing = np.full(len(speeds), np.nan)
-    every = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
+    assert robustness(response(SPEEDS, np.zeros(11), lined=1))["widest_range_rad_s"] == 0.0
+    nothing = np.full(len(SPEEDS), np.nan)
+    every = response(SPEEDS, nothing, nothing, status=np.full(len(SPEEDS), RunStatus.DIVERGED))
     (row,) = find_interactions(every, None, CHOICE)
     assert row["status"] == "diverged" and row["engine_order"] is None
     assert np.isnan([row["peak_motion_m"], row["peak_motion_scatter_m"]]).all()
@@ -313,8 +315,7 @@ def test_blades_that_cannot_be_told_apart_share_a_rank():
     ranks = table[["rank", "rank_lowest", "rank_highest"]]
     assert ranks.loc[["S100", "CS100", "S50", "Ref"]].values.tolist() == [[1, 1, 4], [1, 1, 5], [1, 1, 5], [1, 1, 5]]
     assert ranks.loc[["L50", "L100"]].values.tolist() == [[5, 2, 5], [6, 6, 6]]
-    speeds = np.arange(900.0, 1001.0, 10.0)
-    bare = response(speeds, (speeds > 945.0).astype(float), np.ones(11), lined=1)
+    bare = response(SPEEDS, (SPEEDS > 945.0).astype(float), lined=1)
     bare["max_von_mises_median"][:] = bare["max_von_mises_high"][:] = 1.0
     unknown = robustness(bare, error=np.nan) | {"diverged_runs": 0.0}
     assert ranking_table({("A", "x"): unknown, ("B", "x"): of(900.0)})["rank"].tolist() == [1, 1]
@@ -324,9 +325,8 @@ def test_blades_that_cannot_be_told_apart_share_a_rank():
 
 
 def test_a_length_is_known_within_the_distance_of_speeds_and_the_error_of_the_level():
-    speeds = np.arange(900.0, 1001.0, 10.0)
-    stress = 1e9 + 1e7 * (50.0 - np.abs(speeds - 950.0)) - 3e8
-    one = response(speeds, (stress > 1e9).astype(float), np.ones(11), lined=1)
+    stress = 1e9 + 1e7 * (50.0 - np.abs(SPEEDS - 950.0)) - 3e8
+    one = response(SPEEDS, (stress > 1e9).astype(float), lined=1)
     one["max_von_mises_median"][:] = one["max_von_mises_high"][:] = stress
     known = [robustness(one, error=error)["length_most_revolutions_within_rad_s"] for error in (0.0, 0.05)]
     # yield is reached 20 rad/s off the peak, a stress larger by 5% there 24.76 rad/s off it
@@ -376,10 +376,9 @@ def test_the_chance_to_be_better_is_of_common_members():
 
 def test_lengths_ever_and_lasting():
     """Above yield from 940 to 980 rad/s, at 970 and 980 without lasting; in some revolution at one speed more on both sides."""
-    speeds = np.arange(900.0, 1001.0, 10.0)
-    above = (speeds >= 940.0) & (speeds <= 980.0)
-    lined = response(speeds, above.astype(float), np.ones(len(speeds)), lined=1)
-    lined["max_von_mises_ever"][:] = np.where((speeds >= 930.0) & (speeds <= 990.0), 2.0, 0.0) * float(lined["yield_stress"])
+    above = (SPEEDS >= 940.0) & (SPEEDS <= 980.0)
+    lined = response(SPEEDS, above.astype(float), lined=1)
+    lined["max_von_mises_ever"][:] = np.where((SPEEDS >= 930.0) & (SPEEDS <= 990.0), 2.0, 0.0) * float(lined["yield_stress"])
     lengths = robustness(lined)
     assert (lengths["length_most_revolutions_rad_s"], lengths["length_ever_rad_s"]) == (50.0, 70.0)
     assert np.isnan(lengths["length_lasting_rad_s"])
@@ -389,21 +388,21 @@ def test_lengths_ever_and_lasting():
         return robustness(lined.assign(motion_at_end=("speed", states)))["length_lasting_rad_s"]
 
     assert lasting() == 50.0
-    states[speeds == 940.0] = MotionAtEnd.GROWING
-    states[speeds >= 970.0] = MotionAtEnd.CUT_FREE
+    states[SPEEDS == 940.0] = MotionAtEnd.GROWING
+    states[SPEEDS >= 970.0] = MotionAtEnd.CUT_FREE
     assert lasting() == 30.0
     # a run that diverged is worse than one that lasts
-    states[speeds >= 970.0] = MotionAtEnd.UNKNOWN
+    states[SPEEDS >= 970.0] = MotionAtEnd.UNKNOWN
     assert lasting() == 50.0
 
 
 def test_the_integral_counts_every_share_and_has_no_threshold():
     """Three speeds, 10 rad/s apart, bare or lined; chance moves the integral in a bare casing alone."""
-    speeds, shares = np.arange(900.0, 1001.0, 10.0), np.zeros(11)
+    shares = np.zeros(11)
     shares[4:7] = 0.3, 0.45, 0.35
-    lined = robustness(response(speeds, shares, np.ones(11), lined=1))
+    lined = robustness(response(SPEEDS, shares, lined=1))
     assert lined["exceedance_integral_rad_s"] == pytest.approx(11.0)
     assert np.isnan(lined["exceedance_integral_scatter_rad_s"])
-    bare = robustness(response(speeds, shares, np.ones(11), lined=0))
+    bare = robustness(response(SPEEDS, shares, lined=0))
     assert bare["exceedance_integral_rad_s"] == pytest.approx(11.0)
     assert bare["exceedance_integral_scatter_rad_s"] > 0.0

@@ -105,21 +105,19 @@ def test_dwells_weigh_and_the_rest_is_even():
 def test_measures_inside():
     speeds = np.arange(1000.0, 1301.0, 10.0)
     shares = ((speeds >= 1100.0) & (speeds <= 1200.0)).astype(float)
-    inside = operating_measures(response_above_yield(speeds, shares, 0.0 * speeds, lined=1), OperatingRange(1000.0, 1150.0))
+    inside = operating_measures(response_above_yield(speeds, shares, lined=1), OperatingRange(1000.0, 1150.0))
     # from 1095, half of the way between two speeds
     assert inside["length_most_revolutions_operating_rad_s"] == pytest.approx(55.0)
     assert inside["exceedance_integral_operating_rad_s"] == pytest.approx(55.0)
     assert inside["length_most_revolutions_operating_within_rad_s"] == 10.0
     assert np.isnan(inside["exceedance_integral_operating_scatter_rad_s"])
-    bare = operating_measures(response_above_yield(speeds, 0.5 * shares + 0.1, 0.0 * speeds), OperatingRange(1000.0, 1150.0))
+    bare = operating_measures(response_above_yield(speeds, 0.5 * shares + 0.1), OperatingRange(1000.0, 1150.0))
     assert bare["exceedance_integral_operating_scatter_rad_s"] > 0.0
 
 
 def test_what_is_not_run_over_the_whole_range_is_not_known():
     speeds = np.arange(1000.0, 1301.0, 10.0)
-    measures = operating_measures(
-        response_above_yield(speeds, np.ones(len(speeds)), 0.0 * speeds, lined=1), OperatingRange(990.0, 1150.0)
-    )
+    measures = operating_measures(response_above_yield(speeds, np.ones(len(speeds)), lined=1), OperatingRange(990.0, 1150.0))
     assert set(measures) == set(names(OPERATING))
     assert np.isnan(list(measures.values())).all()
 

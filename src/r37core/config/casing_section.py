@@ -17,6 +17,10 @@ _HEIGHTS = ("amplitude_clearances", "amplitude_m")
 """Keys of the height of the lobes, of which a scene has one."""
 
 
+_Changes = list[Annotated[float, Field(ge=-0.01, le=0.01)]]
+"""Changes (m) of a distance, one for each place of a table."""
+
+
 class GrowthSection(Section):
     """Growth of the casing, linear between speeds."""
 
@@ -28,7 +32,7 @@ class GrowthSection(Section):
     speeds_rpm: list[Annotated[float, Field(ge=0, le=9.5e6)]] | LeftOut = Field(
         default=None, min_length=2, description="The same speeds in revolutions per minute"
     )
-    growth_m: list[Annotated[float, Field(ge=-0.01, le=0.01)]] = Field(
+    growth_m: _Changes = Field(
         min_length=2, description="Growth away from the blade at each speed, normal to the casing; 0 at the first"
     )
 
@@ -42,7 +46,7 @@ class ChangeSection(Section):
     revolutions: list[Annotated[float, Field(ge=0, le=20000)]] = Field(
         min_length=2, description="Ascending revolutions from the start of each run, the first of them 0"
     )
-    change_m: list[Annotated[float, Field(ge=-0.01, le=0.01)]] = Field(
+    change_m: _Changes = Field(
         min_length=2, description="Change at each, normal to the casing, positive where the gap opens; 0 at the first"
     )
 

@@ -66,8 +66,15 @@ def si_form(kind: type[T], section: Section, **parts: Any) -> T:
         for name, key in keys.items():
             value = getattr(section, name, None)
             if value is not None and value != (key.none or None):
-                values[field] = key.words[value] if key.words else si_value(value, key.factor)
+                values[field] = key.words[value] if key.words else _made(value, key.factor)
     return kind(**values | parts)
+
+
+def _made(value: Any, factor: float | None) -> Any:
+    """A value as a field has it, with the dataclasses of sections in their place."""
+    if isinstance(value, list):
+        return tuple(_made(entry, factor) for entry in value)
+    return si(value) if isinstance(value, Section) and value.declares else si_value(value, factor)
 
 
 @cache
@@ -142,9 +149,7 @@ def si_fields(section: Iterable[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def si_value(value: Any, factor: float | None) -> Any:
-    """A value of a key whose unit is `factor` in the SI, as fields have it: a list as a tuple, a section as its dataclass."""
+    """A value of a key whose unit is `factor` in the SI, as fields have it: a list as a tuple."""
     if isinstance(value, list):
         return tuple(si_value(entry, factor) for entry in value)
-    if isinstance(value, Section) and value.declares:
-        return si(value)
     return value * factor if factor is not None and isinstance(value, int | float) else value

@@ -12,6 +12,7 @@ from r37core.base.io import InputFileError
 from r37core.time_integration.status import RunStatus
 
 from .joining import Along, join
+from .measures import ran
 from .regions import judged
 from .variables import DATASETS, FLAGS
 
@@ -95,7 +96,7 @@ def _runs(dataset: xr.Dataset | None, blade: str, scene: str, region: str = "") 
         return xr.Dataset(coords={"speed": []})
     part = dataset.sel(blade=blade, scene=scene, drop=True)
     part = part.sel(region=region, drop=True) if region and "region" in part.dims else judged(part)
-    return part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN))
+    return ran(part)
 
 
 def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:

@@ -22,7 +22,7 @@ from .datasets import response_of
 from .exceedance import SpeedRange, exceedance_of, is_lined
 from .interaction import Interaction, interaction_row, range_columns
 from .interaction_choice import InteractionChoice
-from .measures import leading_edge, motion, strongest_order
+from .measures import leading_edge, motion, ran, strongest_order
 from .spectral_lines import named_by_lines
 
 QUIET = 0.1
@@ -58,7 +58,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     peaks that no crossing explains, where they have the same engine order and one crossing could hold them. In direct contact
     peaks within a range of speeds that may be above yield are one row with it.
     """
-    response = leading_edge(response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN)))
+    response = leading_edge(ran(response))
     if not response.sizes["speed"]:
         return []
     lined = is_lined(response)

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.time_integration.settling import MotionAtEnd
+from r37core.time_integration.status import RunStatus
 
 from .columns import DROP_WITHIN
 
@@ -18,6 +19,11 @@ _RESPONDS = 2e-3
 def leading_edge(response: xr.Dataset) -> xr.Dataset:
     """The response with the leading edge's motion alone."""
     return response.sel(tip_point="leading_edge", drop=True) if "tip_point" in response.dims else response
+
+
+def ran(response: xr.Dataset) -> xr.Dataset:
+    """The response over the speeds that were run alone."""
+    return response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
 
 
 def motion(response: xr.Dataset) -> np.ndarray:

@@ -15,7 +15,7 @@ from .columns import CHANCE, ENDS, MOST_REVOLUTIONS, OPERATING, OVER_SCENES, ROB
 from .danger import danger_of, moved_by_error
 from .datasets import response_in_operation, response_of
 from .exceedance import DEVIATIONS, Exceedance, SpeedRange, exceedance_of
-from .measures import drop_after, has_strengths, lasts, motion, peak_of
+from .measures import drop_after, has_strengths, lasts, motion, peak_of, ran
 from .operating_range import OperatingRange
 from .table_file import read_table
 
@@ -72,7 +72,7 @@ def robustness(
     `chance_scatter`: whether chance is drawn, which takes longer than all else and which members have no use for. `operating`:
     range whose operating_measures are among them; `error`: relative one of the stress, by mesh and step of the level.
     """
-    response = response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
+    response = ran(response)
     inside = operating_measures(response, operating, chance_scatter=chance_scatter, error=error) if operating else {}
     measures = dict.fromkeys(names(ROBUSTNESS), np.nan) | inside
     if not response.sizes["speed"]:
