@@ -90,7 +90,7 @@ def asked(lined, monkeypatch):
     return speeds
 
 
-def test_what_is_run_where_nothing_fails(lined):
+def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_be(lined, contact):
     found = dict(looks_of(lined, NEEDS, evidence()))
     assert tuple(found) == tuple(look for look in LOOKS if look != HALF_FRICTION)
     assert found[REST]["speed"].values.tolist() == [1300.0, 1302.5, 1305.0, 1307.5, 1310.0]
@@ -100,10 +100,6 @@ def test_what_is_run_where_nothing_fails(lined):
     again = looks_in(joined_looks(found))
     for name, runs in found.items():
         xr.testing.assert_allclose(again[name][["used_thickness", "status"]], runs[["used_thickness", "status"]])
-
-
-def test_each_is_the_run_that_it_claims_to_be(lined, contact):
-    found = dict(looks_of(lined, NEEDS, evidence()))
     long = replace(CHOICE, revolutions=20, until_settled=True)
     # lobes rise as in the runs of the sweep
     rising = replace(LINED, casing=replace(LINED.casing, rise_revolutions=LINED.casing.rise_fraction * CHOICE.revolutions))
@@ -120,10 +116,9 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
     for name, scene in scenes.items():
         choice = replace(long, **changes.get(name, {}))
         row = run_row(run_speed(contact, 1305.0, scene, choice, RESULTS, **KEPT), 1e9, UNKNOWN)
-        used[name] = float(found[name]["used_thickness"].sel(speed=1305.0))
-        assert used[name] == row["used_thickness"]
         run = found[name].sel(speed=1305.0)
-        np.testing.assert_array_equal(run["rms_normal"].sel(tip_point="leading_edge"), row["rms_normal"][0])
+        used[name] = run["used_thickness"].item()
+        assert used[name] == row["used_thickness"]
         np.testing.assert_array_equal(run["amplitude"], row["amplitude"])
     assert len(set(used.values())) == 10
 
@@ -131,7 +126,7 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
 def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
     """Nor those of a motion that is carried on, which goes on from the last of them."""
     kept, few = replace(lined, parts=Parts(tmp_path, "lined")), replace(evidence(), operating=OperatingRange(1304.0, 1309.0))
-    expected, found = dict(looks_of(lined, NEEDS, few)), dict(looks_of(kept, NEEDS, few))
+    expected = dict(looks_of(kept, NEEDS, few))
     files = sorted(tmp_path.glob("speed_*.npz"))
     for file in files[::3]:
         file.unlink()
@@ -140,7 +135,6 @@ def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
     again = dict(looks_of(kept, NEEDS, few))
     assert len(done) == len(files[::3])
     for name, runs in expected.items():
-        xr.testing.assert_identical(found[name], runs)
         xr.testing.assert_identical(again[name], runs)
 
 
@@ -162,8 +156,8 @@ def test_a_motion_is_carried_on_in_a_new_lining(lined):
     assert up["speed"].values.tolist() == down["speed"].values.tolist() == [1300.0, 1305.0]
     # the first speed of each is from rest
     alone = lined.carried([1305.0])
-    assert float(down["used_thickness"].sel(speed=1305.0)) == float(alone["used_thickness"][0])
-    assert float(up["used_thickness"].sel(speed=1305.0)) != float(alone["used_thickness"][0])
+    used = [float(runs["used_thickness"].sel(speed=1305.0)) for runs in (up, down, alone)]
+    assert used[0] != used[1] == used[2]
     # as long as a run from rest may be
     row = run_row(run_speed(lined.model, 1305.0, LINED.grown, lined.long_choice, ("wear",), **KEPT), 1e9, UNKNOWN)
     assert float(alone["share_of_time_in_contact"][0]) == row["share_of_time_in_contact"]
@@ -213,17 +207,13 @@ def test_half_the_friction_is_tried_of_the_run_that_diverged_soonest(lined):
     melting = expected.assign(friction_power=("speed", [1e9]), melting_power=1.0)
     assert beyond_model(replace(runs, looks={REST: melting}))
     assert not beyond_model(replace(runs, looks={HALF_FRICTION: melting}))
-    same = replace(runs, looks={HALF_FRICTION: expected.assign(status=("speed", [int(RunStatus.DIVERGED)]))})
-    assert same.divergence == told
 
 
-@pytest.mark.parametrize(
-    ("length", "of", "count"), [(0.0, evidence(), 1), (15.0, evidence(), 1), (0.0, FAILED, 1), (15.0, FAILED, 3)]
-)
-def test_a_length_that_fails_is_tried_at_all_speeds(asked, length, of, count):
+@pytest.mark.parametrize(("length", "count"), [(0.0, 1), (15.0, 3)])
+def test_a_length_that_fails_is_tried_at_all_speeds(asked, length, count):
     """A speed that stays above yield says nothing of the length."""
     numbers = {"nearness": lambda speeds: np.full(len(speeds), 1.2), "fails_clearly": lambda _: ["above_yield"]}
-    assert len(asked(of, Requirements(above_yield=length), **numbers)[FAST_RISE]) == count
+    assert len(asked(FAILED, Requirements(above_yield=length), **numbers)[FAST_RISE]) == count
 
 
 def test_nothing_more_is_run_of_what_fails(asked, monkeypatch):
@@ -254,8 +244,6 @@ KNOWN = np.concatenate([1100.0 + 10.0 * count + np.array([-0.1, 0.0, 0.1]) for c
         # a peak between two like speeds, and a top that is known to 3%
         (SPEEDS, NEAR, [1003.75, 1006.25]),
         (SPEEDS, 0.6 - 1e-3 * (SPEEDS - 1003.0) ** 2, []),
-        # the end of a branch
-        (SPEEDS, [0.4, 0.5, 0.6, 0.1], [1003.75, 1006.25]),
         # peaks that are known as well as can be take no place of others; the gap before them may hide more
         (np.append(SPEEDS, KNOWN), np.append(NEAR, np.tile([0.3, 0.9, 0.3], 12)), [1003.75, 1006.25]),
     ],

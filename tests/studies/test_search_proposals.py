@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from r37core.base.plain import from_plain, to_plain
-from r37studies.surrogate.designs import Design, SearchVariable, best_first, designs_at, not_dominated, shares
+from r37studies.surrogate.designs import Design, best_first, designs_at, not_dominated, shares
 from r37studies.surrogate.proposal import NEAR, first_designs, propose
 
-SQUARE = (SearchVariable("a", -2.0, 2.0), SearchVariable("b", 0.0, 8.0))
+SQUARE = ((-2.0, 2.0), (0.0, 8.0))
+"""Ranges of two numbers, a and b."""
 BEST = np.array([0.6, 5.6])
 NOTHING = (math.nan,)
 
@@ -62,7 +63,7 @@ def far_off(values):
 @pytest.mark.parametrize("seed", range(3))
 def test_a_noisy_optimum_is_better_approached_than_by_plain_sampling(seed):
     """In two variables and as much noise a few plain designs are as good in half of the cases."""
-    variables = tuple(SearchVariable(key, 0.0, 1.0) for key in "abcd")
+    variables = 4 * [(0.0, 1.0)]
     known = evaluated(first_designs(variables, 10, seed), far_off, noise=1.0)
     for _ in range(4):
         known += evaluated(propose(variables, known, 5, seed), far_off, noise=1.0, start=len(known))
@@ -135,7 +136,7 @@ def test_there_is_a_proposal_whatever_is_known(known):
     proposed = propose(SQUARE, known, 4, 0)
     everything = [*dict.fromkeys(design.values for design in known), *proposed]
     assert len(proposed) == 4 and smallest_difference(everything) >= NEAR - 1e-4
-    assert all(each.lowest <= value <= each.highest for v in proposed for value, each in zip(v, SQUARE, strict=True))
+    assert all(low <= value <= high for v in proposed for value, (low, high) in zip(v, SQUARE, strict=True))
 
 
 def test_two_designs_decide_nothing_and_without_a_feasible_one_the_next_come_nearer():
@@ -162,7 +163,7 @@ def test_of_two_objectives_the_whole_front_is_proposed():
 
 
 def test_designs_have_few_digits_and_lie_in_the_ranges():
-    variables = (SearchVariable("small", -1e-3 / 3, 1e-3 / 3), SearchVariable("large", 10_000.0, 10_020.0))
+    variables = ((-1e-3 / 3, 1e-3 / 3), (10_000.0, 10_020.0))
     values = designs_at(variables, np.array([[0.0, 0.123456789], [1.0, 1.0]]))
     assert values == [(-0.00033333, 10_002.469), (0.00033333, 10_020.0)]
 

@@ -12,7 +12,7 @@ from r37core.config.spread import SpreadEntry
 from r37core.sweep.driver import RunAll
 from r37studies.agreement import WITHIN
 from r37studies.member_values import drawn, sobol_points
-from r37studies.surrogate.designs import Design, SearchVariable
+from r37studies.surrogate.designs import Design
 from r37studies.surrogate.gaussian_processes import fit, fit_chance
 from r37studies.surrogate.proposal import propose
 
@@ -131,10 +131,9 @@ class Calibration:
         seed, numbers = self.seed, len(self.spreads)
         if not self.cube:
             return list(sobol_points(numbers, 1 << (count - 1).bit_length(), seed).values())[:count]
-        variables = [SearchVariable(number.name, 0.0, 1.0) for number in self.spreads]
         known = enumerate(zip(self.cube, self.misfits.tolist(), strict=True))
         tried = [Design(f"{place}", point, (misfit,), (nan,), ()) for place, (point, misfit) in known]
-        chosen, likelihood = [*propose(variables, tried, 1, seed)], self.likelihood()
+        chosen, likelihood = [*propose([(0.0, 1.0)] * numbers, tried, 1, seed)], self.likelihood()
         cube, _ = draws(likelihood.log, numbers, _ROUND_DRAWS, seed + len(self.cube))
         _, deviations = likelihood.residuals(cube)
         unknown = np.log(deviations / likelihood.deviations[:, None]).sum(axis=0)

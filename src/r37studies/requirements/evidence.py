@@ -232,10 +232,10 @@ def lacking(evidence: Evidence, name: str) -> str:
 
 def _spanning(evidence: Evidence) -> np.ndarray:
     """Runs in the operating range and, where it begins or ends between two, the nearest outside, shape (speeds,)."""
-    speeds, ran = evidence.response["speed"].values, evidence.response["status"].values != RunStatus.NOT_RUN
-    below = np.max(speeds, where=ran & (speeds <= evidence.operating.first), initial=-np.inf)
-    above = np.min(speeds, where=ran & (speeds >= evidence.operating.last), initial=np.inf)
-    return ran & (speeds >= below) & (speeds <= above)
+    speeds, ran = evidence.response["speed"].values, evidence.speeds
+    below = np.max(ran, where=ran <= evidence.operating.first, initial=-np.inf)
+    above = np.min(ran, where=ran >= evidence.operating.last, initial=np.inf)
+    return np.isin(speeds, ran) & (speeds >= below) & (speeds <= above)
 
 
 def judged_part(response: xr.Dataset) -> xr.Dataset:

@@ -96,13 +96,11 @@ the worst of all motions; NaN each where not run. `further_runs`: how many there
 
 def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, Any]]:
     """Each requirement in turn: COLUMNS."""
-    for name in _OF_RUNS:
-        if getattr(requirements, name) is not None:
-            yield _judged_by_runs(name, requirements, evidence)
-    for name, (unit, factor, columns_of) in _OF_BLADE.items():
-        limit = getattr(requirements, name)
-        if limit is not None:
-            yield _row(name, unit, factor * limit, columns_of(evidence), is_lower_limit=name == "clearance")
+    for name, unit, limit, columns_of in _required(requirements, _OF_RUNS):
+        only = Requirements(**{name: getattr(requirements, name)})
+        yield _judged_by_runs(name, unit, limit, columns_of, only, evidence)
+    for name, unit, limit, columns_of in _required(requirements, _OF_BLADE):
+        yield _row(name, unit, limit, columns_of(evidence), is_lower_limit=name == "clearance")
     for margin in requirements.campbell_margins:
         for order in margin.engine_orders:
             crossing = crossing_of(evidence.campbell, margin.mode, order)
@@ -114,12 +112,8 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, 
 def fails_clearly(requirements: Requirements, evidence: Evidence) -> list[str]:
     """Requirements that runs inside the operating range fail, with stress and wear smaller by CLEARLY, too."""
     smaller = operated_alone(evidence).scaled(1.0 / CLEARLY)
-    names = []
-    for name, (_, factor, columns_of) in _OF_RUNS.items():
-        limit = getattr(requirements, name)
-        if limit is not None and _number(columns_of(smaller)) > factor * limit:
-            names.append(name)
-    return names
+    required = _required(requirements, _OF_RUNS)
+    return [name for name, _, limit, columns_of in required if _number(columns_of(smaller)) > limit]
 
 
 def nearness(requirements: Requirements, evidence: Evidence) -> np.ndarray:
@@ -177,10 +171,10 @@ class Trial:
     raised: float = np.nan
 
 
-def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evidence) -> dict[str, Any]:
+def _judged_by_runs(
+    requirement: str, unit: str, limit: float, columns_of: Callable[[Evidence], Columns], only: Requirements, evidence: Evidence
+) -> dict[str, Any]:
     """The row of a requirement on runs: it meets where all that was tried does, and fails where none of it meets."""
-    unit, factor, columns_of = _OF_RUNS[requirement]
-    limit, only = factor * getattr(requirements, requirement), Requirements(**{requirement: getattr(requirements, requirement)})
     further_runs = float(sum(runs.sizes["speed"] for runs in evidence.looks.values()))
     if REST in evidence.looks:
         evidence = evidence.replaced(evidence.looks[REST])
@@ -210,18 +204,25 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
         row["scatter"] = float(np.linalg.norm(np.nan_to_num([row["scatter"], deviation])))
     reach_of_chance = DEVIATIONS * np.nan_to_num(row["scatter"])
     lowest, highest = row["value"] - reach_of_chance, row["value"] + reach_of_chance
-    if requirement == "above_yield" and is_lined(evidence.response) and row["value"] > 0.0:
+    is_length = requirement == "above_yield"
+    if is_length and is_lined(evidence.response) and row["value"] > 0.0:
         # wherever its borders lie, a speed above yield is one
         lowest = max(lowest, 1e-9)
     if row["scatter"] > 0.0:
         table.append(Trial("by chance", evidence, value=highest if row["verdict"] == MEETS else lowest))
     finite = [value for trial in table for value in (trial.value, trial.raised) if np.isfinite(value)]
-    most = evidence.operating.last - evidence.operating.first if requirement == "above_yield" else np.inf
+    operating = evidence.operating
+    width = operating.last - operating.first
+    most = width if is_length else np.inf
     row |= {"value_lowest": max(min([lowest, *finite]), 0.0), "value_highest": min(max([highest, *finite]), most)}
     in_motions = [max(trial.value, row["value"]) for trial in table if trial.is_motion and not np.isnan(trial.value)]
     row["margin_worst_motion"] = limit - max(in_motions, default=np.nan)
 
-    beyond, at_least = _may_come_nearer(only, evidence, error)
+    near = nearness(only, evidence)
+    known, may_be = reach(evidence, near)
+    # a peak below the limit may come beyond it; or the worst value be larger, but of speeds above yield, which count in full
+    beyond = REST in evidence.looks and bool(np.any((may_be >= 1.0) & (known < 1.0)))
+    at_least = beyond if is_length else bool(may_be.max(initial=0.0) > (1.0 + error) * known.max(initial=0.0))
     # of what fails clearly nothing more was run
     at_least |= row["verdict"] == FAILS and REST not in evidence.looks and evidence.gap > STEP
     notes = [row["note"], AT_LEAST if at_least else ""]
@@ -229,7 +230,11 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
         # another motion that keeps the limit takes nothing from one that does not
         kept = [trial.name for trial in table if trial.value <= limit and not trial.is_motion]
         doubts = [f"meets {' and '.join(kept)}" if kept else ""]
-        notes += [_how_much(only, evidence), *beyond_model(evidence)]
+        response = evidence.response
+        ranges = (
+            exceedance_of(response).ranges(MOST_REVOLUTIONS) if is_length else ranges_above(response["speed"].values, near, 1.0)
+        )
+        notes += [f"over {operating.length(ranges):.3g} of {width:.4g} rad/s", *beyond_model(evidence)]
     else:
         failing = {trial.name: trial.value for trial in table if trial.value > limit}
         also = [trial for trial in table if trial.raised > limit and trial.name not in failing]
@@ -248,25 +253,6 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     elif row["verdict"] == MEETS and not evidence.touches:
         row["note"] = NO_CONTACT
     return row
-
-
-def _may_come_nearer(only: Requirements, evidence: Evidence, error: float) -> tuple[bool, bool]:
-    """Two answers: whether a peak below the one limit may come beyond it, and whether the worst value may be larger."""
-    known, may_be = reach(evidence, nearness(only, evidence))
-    beyond = REST in evidence.looks and bool(np.any((may_be >= 1.0) & (known < 1.0)))
-    if only.above_yield is not None:
-        # a speed above yield counts in full already
-        return beyond, beyond
-    return beyond, bool(may_be.max(initial=0.0) > (1.0 + error) * known.max(initial=0.0))
-
-
-def _how_much(only: Requirements, evidence: Evidence) -> str:
-    """Over how much of the operating range runs are beyond the one limit."""
-    response, operating = evidence.response, evidence.operating
-    ranges = ranges_above(response["speed"].values, nearness(only, evidence), 1.0)
-    if only.above_yield is not None:
-        ranges = exceedance_of(response).ranges(MOST_REVOLUTIONS)
-    return f"over {operating.length(ranges):.3g} of {operating.last - operating.first:.4g} rad/s"
 
 
 def _growing(only: Requirements, trial: Trial) -> str:
@@ -449,6 +435,14 @@ def _mass(evidence: Evidence) -> Columns:
 
 _Numbers = dict[str, tuple[str, float, Callable[[Evidence], Columns]]]
 """Requirement -> unit of its row, factor to it from that of the limit, and its columns."""
+
+
+def _required(requirements: Requirements, numbers: _Numbers) -> Iterator[tuple[str, str, float, Callable[[Evidence], Columns]]]:
+    """Name, unit, limit in this unit, and columns of each requirement among these `numbers` that there is."""
+    for name, (unit, factor, columns_of) in numbers.items():
+        if (limit := getattr(requirements, name)) is not None:
+            yield name, unit, factor * limit, columns_of
+
 
 _OF_RUNS: _Numbers = {
     "above_yield": ("rad/s", 1.0, _above_yield),

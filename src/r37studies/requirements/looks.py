@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from r37core.base.dataset_file import dataset_of
@@ -198,9 +199,11 @@ def joined_looks(looks: Mapping[str, xr.Dataset]) -> xr.Dataset:
     """All looks in one dataset over (look, speed); what is not run is NaN."""
     if not looks:
         return xr.Dataset(coords={"look": np.empty(0, dtype=object)})
-    parts = [runs.drop_vars(OF_ALL, errors="ignore").expand_dims(look=[name]) for name, runs in looks.items()]
-    first = next(iter(looks.values()))
-    return xr.concat(parts, "look", join="outer").assign({name: first[name] for name in OF_ALL if name in first})
+    first, *_ = looks.values()
+    parts = [runs.drop_vars(OF_ALL, errors="ignore") for runs in looks.values()]
+    return xr.concat(parts, pd.Index(looks, name="look"), join="outer").assign(
+        {name: first[name] for name in OF_ALL if name in first}
+    )
 
 
 def looks_in(joined: xr.Dataset) -> dict[str, xr.Dataset]:
@@ -211,7 +214,9 @@ def looks_in(joined: xr.Dataset) -> dict[str, xr.Dataset]:
 
 def _closer(speeds: Sequence[float], step: float) -> list[float]:
     """The speeds, ascending, with others evenly between them, none farther than a `step` from the next."""
-    filled = [np.linspace(low, high, int(np.ceil((high - low) / step - 1e-9)) + 1)[:-1] for low, high in pairwise(speeds)]
+    filled = [
+        np.linspace(low, high, int(np.ceil((high - low) / step - 1e-9)), endpoint=False) for low, high in pairwise(speeds)
+    ]
     return [*np.concatenate(filled).tolist(), speeds[-1]]
 
 

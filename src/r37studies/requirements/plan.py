@@ -73,9 +73,10 @@ class Judged:
     def not_looked(self) -> dict[str, str]:
         """Reason why no further runs of a scene are done, where that is so."""
         settings = self.sweep.settings
-        reasons = {name: "no further runs of a rotor" for name, chosen in settings.scenes.items() if chosen.scene.rotor}
-        changing = "the clearance changes within a run, of which the later revolutions alone are judged"
-        reasons |= {name: changing for name, chosen in settings.scenes.items() if chosen.scene.casing.change}
+        reasons, changing = {}, "the clearance changes within a run, of which the later revolutions alone are judged"
+        for name, chosen in settings.scenes.items():
+            if chosen.scene.casing.change or chosen.scene.rotor:
+                reasons[name] = changing if chosen.scene.casing.change else "no further runs of a rotor"
         operating = operating_range(settings)
         if operating is None:
             return reasons

@@ -83,32 +83,29 @@ def judge(input: Any, output: Any, params: Any) -> None:
     """
     files = dict(input.items())
     shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)
-    masses = {blade: density * _volume(file) for (blade, density), file in shapes}
-    measured = read_table(files.pop("measured")) if "measured" in files else None
+    masses = {}
+    for (blade, density), file in shapes:
+        # of a geometry, or of the mesh of another program
+        if file.endswith(".nc"):
+            masses[blade] = density * float(read_dataset(file)["volume"])
+        else:
+            mesh = read_vtu(file)
+            masses[blade] = density * mesh_volume(mesh.blocks, mesh.points)
+    doubted = disagreements(read_table(files.pop("measured"))) if "measured" in files else {}
     looked = zip(map(tuple, params.looked), as_list(files.pop("looks", [])), strict=True)
     looks = {pair: looks_in(read_dataset(file)) for pair, file in looked}
     numbers = {"clearance": params.clearance, "thickness": params.thickness, "mass": masses}
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
-    pairs = [(blade, scene) for blade, scene in params.pairs]
+    pairs = list(map(tuple, params.pairs))
     doubts = {"looks": looks, "not_looked": params.not_looked, "point_contact": params.point_contact}
     errors = dict(zip(pairs, params.errors, strict=True))
     table = verdict_table(pairs, requirements, operating, datasets, numbers, errors=errors, **doubts)
-    if measured is not None:
-        doubted = disagreements(measured)
-        notes = [doubted.get(pair, "") for pair in zip(table["blade"], table["scene"], strict=True)]
-        table["note"] = ["; ".join(filter(None, both)) for both in zip(table["note"], notes, strict=True)]
+    notes = ((row.note, doubted.get((row.blade, row.scene))) for row in table.itertuples())
+    table["note"] = ["; ".join(filter(None, both)) for both in notes]
     write_table(table, output.verdict, digits=6)
     runs = {pair: looks.get(pair, {}).get(REST, xr.Dataset()) for pair in pairs}
     join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", {}, nullcontext)
-
-
-def _volume(file: str) -> float:
-    """Volume (m3) of a blade, by its geometry or its mesh."""
-    if file.endswith(".nc"):
-        return float(read_dataset(file)["volume"])
-    mesh = read_vtu(file)
-    return mesh_volume(mesh.blocks, mesh.points)
 
 
 def list_operating(input: Any, output: Any, params: Any) -> None:

@@ -78,8 +78,7 @@ def verdict_table(
         response, campbell = response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade)
         more |= {"error": errors.get((blade, scene), np.nan), "point_contact": blade in point_contact}
         evidence = Evidence(response, campbell=campbell, operating=operating, looks=looks.get((blade, scene), {}), **more)
-        rest = evidence.replaced(evidence.looks[REST]) if REST in evidence.looks else evidence
-        failed = fails_clearly(requirements, rest)
+        failed = fails_clearly(requirements, evidence.replaced(evidence.looks.get(REST, response)))
         reason = f"few further runs, as {failed[0]} fails" if failed else not_looked.get(scene, "")
         evidence = replace(evidence, not_looked=reason, fails_elsewhere=bool(failed))
         rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
@@ -210,10 +209,9 @@ def closing(results: Path) -> str:
     judged = overall(table)
     if len(judged) <= _MOST_LINES:
         lines = []
-        for row in judged.itertuples():
-            lines_of_pair = table[(table["blade"] == row.blade) & (table["scene"] == row.scene)].iterrows()
-            sure = [f"{line['requirement']}{certainty(line)}" for _, line in lines_of_pair if certainty(line)]
-            text = row.reason if row.reason else ", ".join(sure)
+        for row, (_, own) in zip(judged.itertuples(), table.groupby(["blade", "scene"], sort=False), strict=True):
+            sure = (f"{line['requirement']}{how}" for _, line in own.iterrows() if (how := certainty(line)))
+            text = row.reason or ", ".join(sure)
             lines.append(f"{row.blade} in {row.scene} {row.verdict}{f': {text}' if text else ''}")
         return "\n  ".join(["verdict", *lines])
     good = [f"{row.blade} in {row.scene}" for row in judged.itertuples() if row.verdict == MEETS]

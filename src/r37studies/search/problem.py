@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from r37studies.surrogate.designs import Design, SearchVariable, Value
+from r37studies.surrogate.designs import Design, Value
 
 from .section import QuantitySection, SearchSection
 
@@ -30,11 +30,6 @@ class SearchChoice:
 
     entry: SearchSection
     start: tuple[float | None, ...]
-
-    @property
-    def variables(self) -> list[SearchVariable]:
-        """Numbers that vary, with their ranges."""
-        return [SearchVariable(key, *bounds) for key, bounds in self.entry.variables.items()]
 
     @property
     def quantities(self) -> dict[str, QuantitySection]:

@@ -55,13 +55,14 @@ def search(input: Any, output: Any, params: Any) -> None:
 
 def next_designs(tried: Mapping[str, Design], count: int, choice: SearchChoice) -> dict[str, tuple[float, ...]]:
     """Values of the `count` designs that those `tried`, the start among them, ask for, by name; of the first evenly spread."""
-    done = len([name for name in tried if name != START])
+    ranges = list(choice.entry.variables.values())
+    done = len(tried.keys() - {START})
     if not tried or choice.entry.method == QUASI_RANDOM:
-        values = first_designs(choice.variables, done + count, choice.entry.seed)[done:]
+        values = first_designs(ranges, done + count, choice.entry.seed)[done:]
     else:
         # a start at values that are not known tells nothing of those between
         known = [design for design in tried.values() if all(map(isfinite, design.values))]
-        values = propose(choice.variables, known, count, choice.entry.seed)
+        values = propose(ranges, known, count, choice.entry.seed)
     return {f"d{done + place:04d}": each for place, each in enumerate(values)}
 
 

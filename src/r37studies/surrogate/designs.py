@@ -15,14 +15,8 @@ FEWEST_DONE = 3
 Value = tuple[float, float]
 """Value of a quantity, and its standard deviation; NaN for what is not known."""
 
-
-@dataclass(frozen=True)
-class SearchVariable:
-    """A number of the blade or of scenes by its name (VariedNumber), and the range that is searched; any unit."""
-
-    key: str
-    lowest: float
-    highest: float
+Ranges = Sequence[Sequence[float]]
+"""Lowest and highest value of each number that is varied, in its unit."""
 
 
 @dataclass(frozen=True)
@@ -55,33 +49,28 @@ class Design:
         return self.is_done and all(margin >= 0 for margin in self.margins)
 
 
-def shares(variables: Sequence[SearchVariable], values: Sequence[Sequence[float]]) -> np.ndarray:
+def shares(ranges: Ranges, values: Sequence[Sequence[float]]) -> np.ndarray:
     """Where designs [design, variable] lie in the ranges: 0 at the lowest values, 1 at the highest."""
-    lowest, highest = _bounds(variables)
-    return (np.asarray(values, dtype=float).reshape(-1, len(variables)) - lowest) / (highest - lowest)
+    lowest, highest = np.transpose(ranges)
+    return (np.asarray(values, dtype=float).reshape(-1, len(ranges)) - lowest) / (highest - lowest)
 
 
-def designs_at(variables: Sequence[SearchVariable], points: np.ndarray) -> list[tuple[float, ...]]:
+def designs_at(ranges: Ranges, points: np.ndarray) -> list[tuple[float, ...]]:
     """Values of the designs at `points` (shares of the ranges), in decimal steps of at most 1e-4 of each range, within it."""
-    lowest, highest = _bounds(variables)
+    lowest, highest = np.transpose(ranges)
     width = highest - lowest
     # a range of 20 has steps of 0.001, one of 0.3 of 0.00001
     decimals = [4 - math.floor(math.log10(each)) for each in width]
     values = [list(map(round, (lowest + point * width).tolist(), decimals)) for point in points]
-    return [tuple(each) for each in np.clip(np.reshape(values, (-1, len(variables))), lowest, highest).tolist()]
-
-
-def _bounds(variables: Sequence[SearchVariable]) -> np.ndarray:
-    """Lowest and highest values [2, variable]."""
-    return np.array([(variable.lowest, variable.highest) for variable in variables]).T
+    return [tuple(each) for each in np.clip(np.reshape(values, (-1, len(ranges))), lowest, highest).tolist()]
 
 
 def not_dominated(evaluated: Sequence[Design]) -> list[Design]:
     """The feasible designs than which no feasible one is better in an objective and as good in all, in the same order."""
     feasible = [design for design in evaluated if design.is_feasible]
     values = np.array([design.objectives for design in feasible])
-    pairs = zip(feasible, values, strict=True)
-    return [design for design, own in pairs if not np.any((values <= own).all(1) & (values < own).any(1))]
+    beaten = ((values <= own).all(1) & (values < own).any(1) for own in values)
+    return [design for design, by in zip(feasible, beaten, strict=True) if not by.any()]
 
 
 def best_first(evaluated: Sequence[Design]) -> list[Design]:

@@ -15,7 +15,7 @@ from typing import Self
 import numpy as np
 import scipy
 
-from .designs import FEWEST_DONE, Design, SearchVariable, designs_at, shares
+from .designs import FEWEST_DONE, Design, Ranges, designs_at, shares
 from .gaussian_processes import Fit, fit, fit_chance
 
 NEAR = 0.01
@@ -25,26 +25,26 @@ _CANDIDATES = 1024
 _DRAWS = 64
 
 
-def first_designs(variables: Sequence[SearchVariable], number: int, seed: int) -> list[tuple[float, ...]]:
+def first_designs(ranges: Ranges, number: int, seed: int) -> list[tuple[float, ...]]:
     """The first `number` designs of a scrambled Sobol sequence: more of them change none. This is plain sampling, too."""
-    return designs_at(variables, _sobol(len(variables), number, seed))
+    return designs_at(ranges, _sobol(len(ranges), number, seed))
 
 
-def propose(variables: Sequence[SearchVariable], evaluated: Sequence[Design], batch: int, seed: int) -> list[tuple[float, ...]]:
-    """The next `batch` designs, values in the order of `variables`.
+def propose(ranges: Ranges, evaluated: Sequence[Design], batch: int, seed: int) -> list[tuple[float, ...]]:
+    """The next `batch` designs, values in the order of the `ranges`.
 
     They depend neither on the order of `evaluated` nor on the number of cores. Raises SearchPackageMissing without the library.
     """
     known = sorted(evaluated, key=lambda design: (design.values, design.name))
     generator = np.random.default_rng([seed, len(known)])
-    tried = shares(variables, [design.values for design in known])
+    tried = shares(ranges, [design.values for design in known])
     models = _fitted(tried, known, int(generator.integers(2**31)))
     chosen: list[np.ndarray] = []
     for _ in range(batch):
-        point = _next_point(models, np.vstack([tried, *chosen]), len(variables), generator)
-        chosen.append(np.asarray(shares(variables, designs_at(variables, point[None]))[0]))
+        point = _next_point(models, np.vstack([tried, *chosen]), generator)
+        chosen.append(shares(ranges, designs_at(ranges, point[None]))[0])
         models = models.believing(chosen[-1])
-    return designs_at(variables, np.array(chosen).reshape(-1, len(variables)))
+    return designs_at(ranges, np.reshape(chosen, (-1, len(ranges))))
 
 
 @dataclass(frozen=True)
@@ -83,33 +83,32 @@ class Models:
             return None
         here = np.vstack([points, self.feasible])
         means, deviations = (np.array(part) for part in zip(*(each.at(here) for each in self.objectives), strict=True))
-        lowest, width = means[:, len(points) :].min(1, keepdims=True), np.ptp(means[:, len(points) :], axis=1)[:, None]
+        best = means[:, len(points) :]
+        lowest, width = best.min(1, keepdims=True), np.ptp(best, axis=1, keepdims=True)
         width = np.where(width > 0, width, 1.0)
         means, deviations = (means - lowest) / width, deviations / width
+        new, best_means = np.split(means, [len(points)], axis=1)
         if len(means) == 1:
-            return _log_expected(means[0, : len(points)], deviations[0, : len(points)], float(means[0, len(points) :].min()))
+            return _log_expected(new[0], deviations[0, : len(points)], float(best_means.min()))
         weights = generator.dirichlet(np.ones(len(means)))[:, None]
-        best = _scalar(means[:, len(points) :], weights).min()
+        best = _scalar(best_means, weights).min()
         draws = generator.standard_normal((_DRAWS, len(means), 1))
-        values = _scalar(means[:, : len(points)] + deviations[:, : len(points)] * draws, weights)
+        values = _scalar(new + deviations[:, : len(points)] * draws, weights)
         return np.log(np.maximum(best - values, 0.0).mean(0) + 1e-12)
 
 
 def _fitted(tried: np.ndarray, known: Sequence[Design], seed: int) -> Models:
-    is_done = np.array([design.is_done for design in known], dtype=bool)
+    is_done, is_feasible = (np.array([getattr(each, name) for each in known], bool) for name in ("is_done", "is_feasible"))
     done = [design for design in known if design.is_done]
-    points = tried[is_done]
-    feasible = tried[np.array([design.is_feasible for design in known], dtype=bool)]
+    points, feasible = tried[is_done], tried[is_feasible]
     buildable = fit_chance(tried, is_done, seed)
     if len(done) < FEWEST_DONE:
         return Models((), (), buildable, feasible[:0])
     kinds = ("objectives", "scatters", "margins")
     objectives, scatters, margins = (np.array([getattr(design, kind) for design in done]).T for kind in kinds)
-    compressed = [_compressed(*each) for each in zip(objectives, scatters, strict=True)]
-    none = np.zeros(len(done))
     return Models(
-        tuple(fit(points, *each, seed) for each in compressed),
-        tuple(fit(points, margin, none, seed) for margin in margins),
+        tuple(fit(points, *_compressed(*each), seed) for each in zip(objectives, scatters, strict=True)),
+        tuple(fit(points, margin, np.zeros(len(done)), seed) for margin in margins),
         buildable,
         feasible,
     )
@@ -123,9 +122,9 @@ def _compressed(numbers: np.ndarray, scatters: np.ndarray) -> tuple[np.ndarray, 
     return np.where(above > 0, middle + width * np.log1p(above / width), numbers), scatters / (1.0 + above / width)
 
 
-def _next_point(models: Models, taken: np.ndarray, variables: int, generator: np.random.Generator) -> np.ndarray:
+def _next_point(models: Models, taken: np.ndarray, generator: np.random.Generator) -> np.ndarray:
     """The most promising of points all over the ranges, of points around the best designs, and at last around the winners."""
-    candidates = _sobol(variables, _CANDIDATES, int(generator.integers(2**31)))
+    candidates = _sobol(taken.shape[1], _CANDIDATES, int(generator.integers(2**31)))
     candidates = np.vstack([candidates, *(_around(models.feasible, spread, generator) for spread in (0.1, 0.03))])
     draws = generator.bit_generator.random_raw()
     worth = _worth(models, candidates, taken, draws)
