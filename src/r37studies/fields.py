@@ -1,6 +1,6 @@
 """Results for other programs: modes and the worst stress on the mesh, as .vtu with a .pvd list."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -66,18 +66,16 @@ def write_modes(
     With a `material` the von Mises stress of each (Pa kg^-1/2), too. Fields are named by the mode; .vtu files have the
     frequency (Hz) of each in the field data. The model must recover the whole blade.
     """
-    shown = target.orientation.mesh_to_file(mesh)
-    files = {}
-    for speed in speeds:
+
+    def content(speed: float) -> tuple[dict[str, np.ndarray], dict[str, float]]:
         names, frequencies, displacement = mode_shapes(model, speed, count)
         fields = {f"mode {name}": u @ target.orientation.rows for name, u in zip(names, displacement, strict=True)}
         if material is not None:
             stress = recovered_stress(mesh.blocks, mesh.points, np.moveaxis(displacement, 0, 2), material, False)
             fields |= dict(zip(map(modal_stress, names), von_mises(stress).T, strict=True))
-        notes = dict(zip(map(modal_frequency, names), frequencies, strict=True))
-        files[speed] = f"modes_{exact_text(speed)}"
-        _write_fields(shown, fields, notes, files[speed], target)
-    _write_collection(files, "modes", target)
+        return fields, dict(zip(map(modal_frequency, names), frequencies, strict=True))
+
+    _write(mesh, "modes", speeds, content, target)
 
 
 def modal_frequency(mode: str) -> str:
@@ -118,18 +116,17 @@ def write_stress(
     Displacement (the target's unit), stress components xx yy zz xy yz zx and von Mises stress (Pa) on the whole blade: of
     the vibration, and of rotation in a scene whose stress has it. The model must recover the whole blade.
     """
-    shown = target.orientation.mesh_to_file(mesh)
-    files = {}
-    for speed, instant in instants.items():
-        displacement, stress = stress_of(mesh, model, material, instant, speed)
+
+    def content(speed: float) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+        displacement, stress = stress_of(mesh, model, material, instants[speed], speed)
         fields = {
             "displacement": target.orientation.vectors_to_file(displacement),
             "stress": _turned(stress, target.orientation.rows).T,
             "von Mises stress": von_mises(stress),
         }
-        files[speed] = f"stress_{exact_text(speed)}"
-        _write_fields(shown, fields, {REGION_STRESS: instant.largest}, files[speed], target)
-    _write_collection(files, "stress", target)
+        return fields, {REGION_STRESS: instants[speed].largest}
+
+    _write(mesh, "stress", instants, content, target)
 
 
 def stress_of(
@@ -175,19 +172,23 @@ def _whole(model: ReducedModel) -> RecoveryNodes:
     return model.whole_blade
 
 
-def _write_fields(
-    mesh: BladeMesh, fields: Mapping[str, np.ndarray], notes: Mapping[str, float], name: str, target: Target
+def _write(
+    mesh: BladeMesh,
+    name: str,
+    speeds: Iterable[float],
+    content: Callable[[float], tuple[dict[str, np.ndarray], dict[str, float]]],
+    target: Target,
 ) -> None:
-    grid = vtk_grid(mesh)
-    grid.point_data.update(dict(fields))
-    for about, value in notes.items():
-        grid.field_data[about] = [value]
-    with atomic_write(target.folder / f"{name}.vtu") as partial:
-        save_grid(grid, partial)
-
-
-def _write_collection(files: Mapping[float, str], name: str, target: Target) -> None:
-    """A ParaView list of the .vtu files over speed."""
-    rows = "".join(f'    <DataSet timestep="{speed!r}" file="{file}.vtu"/>\n' for speed, file in files.items())
+    """Write the fields and field data that `content` gives at each speed (rad/s), and a ParaView list of the files."""
+    shown, rows = target.orientation.mesh_to_file(mesh), ""
+    for speed in speeds:
+        grid, file = vtk_grid(shown), f"{name}_{exact_text(speed)}.vtu"
+        fields, notes = content(speed)
+        grid.point_data.update(fields)
+        for about, value in notes.items():
+            grid.field_data[about] = [value]
+        with atomic_write(target.folder / file) as partial:
+            save_grid(grid, partial)
+        rows += f'    <DataSet timestep="{speed!r}" file="{file}"/>\n'
     text = f'<VTKFile type="Collection" version="0.1">\n  <Collection>\n{rows}  </Collection>\n</VTKFile>\n'
     write_text(text, target.folder / f"{name}.pvd")

@@ -1,7 +1,6 @@
 """Virtual strain gauges: the strain at a place on the blade's surface, in one direction of the surface."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -9,20 +8,6 @@ from r37core.fem.elements import ELEMENTS, Element
 from r37core.fem.surface import outer_faces
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.stress.gauge import Gauge
-
-
-@dataclass(frozen=True)
-class _SurfacePoint:
-    """A point on the surface: its element and the numbers of its nodes, local coordinates there, two directions in the surface.
-
-    `slopes`, shape (2, 3): change of the local coordinates along them; `parameters`, shape (2, 2): of (chord, span).
-    """
-
-    element: Element
-    nodes: np.ndarray
-    local: np.ndarray
-    slopes: np.ndarray
-    parameters: np.ndarray
 
 
 def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> tuple[np.ndarray, np.ndarray]:
@@ -34,13 +19,13 @@ def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> t
     """
     rows, places = [], []
     for gauge in gauges:
-        point = _surface_point(mesh, gauge)
-        corners, local = mesh.points[point.nodes], point.local[None]
-        tangents = point.slopes @ point.element.jacobian(corners[None], local)[0, 0].T
-        direction = _direction(tangents, point.parameters, gauge.angle)
-        gradients, _ = point.element.physical_gradients(corners[None], local)
-        rows.append(np.einsum("a,aij,i->j", gradients[0, 0] @ direction, basis[point.nodes], direction, optimize=True))
-        places.append(point.element.shape_functions(local)[0] @ corners)
+        element, nodes, local, slopes, parameters = _surface_point(mesh, gauge)
+        corners = mesh.points[nodes]
+        tangents = slopes @ element.jacobian(corners[None], local)[0, 0].T
+        direction = _direction(tangents, parameters, gauge.angle)
+        gradients, _ = element.physical_gradients(corners[None], local)
+        rows.append(np.einsum("a,aij,i->j", gradients[0, 0] @ direction, basis[nodes], direction, optimize=True))
+        places.append(element.shape_functions(local)[0] @ corners)
     return np.array(rows), np.array(places)
 
 
@@ -55,8 +40,12 @@ def _direction(tangents: np.ndarray, parameters: np.ndarray, angle: float) -> np
     return np.cos(angle) * along + np.sin(angle) * across / np.linalg.norm(across)
 
 
-def _surface_point(mesh: BladeMesh, gauge: Gauge) -> _SurfacePoint:
-    """The element under a gauge: the triangle of corners of its side's outer faces that holds (chord, span)."""
+def _surface_point(mesh: BladeMesh, gauge: Gauge) -> tuple[Element, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """The element under a gauge, by the triangle of corners of its side's outer faces that holds (chord, span).
+
+    With the numbers of its nodes, the local coordinates of the gauge there, shape (1, 3), their change along two directions in
+    the surface, shape (2, 3), and that of (chord, span) along these, shape (2, 2).
+    """
     corners = np.concatenate(_triangles(mesh, gauge.side))
     parameters = mesh.parameters[corners, :2]
     edges = parameters[:, 1:] - parameters[:, :1]
@@ -72,10 +61,15 @@ def _surface_point(mesh: BladeMesh, gauge: Gauge) -> _SurfacePoint:
             f"a strain gauge at chord {gauge.chord:g} and span {gauge.span:g} is not on the {gauge.side} side of the mesh; "
             "take a place farther from the edges (signals.gauges in config.yaml)"
         )
-    element, nodes = _element_of(mesh, corners[best])
+    # an outer face belongs to one element
+    element, nodes = next(
+        (ELEMENTS[name], nodes)
+        for name, rows in mesh.blocks.items()
+        for nodes in rows[np.isin(rows, corners[best]).sum(axis=1) == len(corners[best])]
+    )
     local = element.nodes[[int(np.flatnonzero(nodes == node)[0]) for node in corners[best]]]
     # the shape functions' local coordinates are linear in those of a triangle of corners, chord and span (nearly) too
-    return _SurfacePoint(element, nodes, shares[best] @ local, local[1:] - local[:1], edges[best])
+    return element, nodes, shares[best, None] @ local, local[1:] - local[:1], edges[best]
 
 
 def _triangles(mesh: BladeMesh, side: str) -> list[np.ndarray]:
@@ -90,11 +84,3 @@ def _triangles(mesh: BladeMesh, side: str) -> list[np.ndarray]:
         outer = faces[(sign * outwards > 0.0) & ~np.any([end[faces].all(axis=1) for end in ends], axis=0)]
         triangles += [outer[:, split] for split in ([0, 1, 2], [0, 2, 3])[: part.corners - 2]]
     return triangles
-
-
-def _element_of(mesh: BladeMesh, corners: np.ndarray) -> tuple[Element, np.ndarray]:
-    for name, nodes in mesh.blocks.items():
-        rows = np.flatnonzero(np.isin(nodes, corners).sum(axis=1) == len(corners))
-        if len(rows):
-            return ELEMENTS[name], nodes[rows[0]]
-    raise AssertionError("an outer face belongs to an element")

@@ -103,11 +103,11 @@ def _label(axes: Axes, rows: pd.DataFrame, keys: Sequence[str]) -> None:
 def _draw_verdict(axes: Axes, rows: pd.DataFrame, keys: Sequence[str], verdict: pd.DataFrame) -> None:
     """A mark on each design that meets all requirements, and lines round those that do not fail one."""
     judged = rows[["blade", "scene", *keys]].merge(verdict, on=["blade", "scene"])
-    judged = judged.assign(meets=judged["verdict"].isin(["meets", "does not apply"]).astype(float))
+    meets, keeps = judged["verdict"].isin(["meets", "does not apply"]), judged["verdict"] != "fails"
+    judged = judged.assign(meets=meets.astype(float), keeps=keeps.astype(float))
     up, across = np.nonzero(_grid(judged, keys, "meets", "min") == 1.0)
     if len(up):
         axes.plot(across, up - 0.3, "o", color="white", markeredgecolor="black", markersize=5, label="meets all requirements")
-    judged = judged.assign(keeps=(judged["verdict"] != "fails").astype(float))
     for number, (name, part) in enumerate(judged.groupby("requirement", sort=False)):
         borders = _borders(_grid(part, keys, "keeps", "min"))
         if borders:
@@ -122,8 +122,8 @@ def _draw_verdict(axes: Axes, rows: pd.DataFrame, keys: Sequence[str], verdict: 
 def _borders(inside: np.ndarray) -> list[list[tuple[float, float]]]:
     """Sides of cells between those inside, 1, and others, 0, as pairs of points; none to cells without a design, NaN."""
     borders = []
-    for row, column in zip(*np.nonzero(np.abs(np.diff(inside, axis=1)) == 1.0), strict=True):
-        borders.append([(column + 0.5, row - 0.5), (column + 0.5, row + 0.5)])
-    for row, column in zip(*np.nonzero(np.abs(np.diff(inside, axis=0)) == 1.0), strict=True):
-        borders.append([(column - 0.5, row + 0.5), (column + 0.5, row + 0.5)])
+    for axis in (1, 0):
+        for row, column in zip(*np.nonzero(np.abs(np.diff(inside, axis=axis)) == 1.0), strict=True):
+            end = column + 0.5, row + 0.5
+            borders.append([(end[0] - (axis == 0), end[1] - (axis == 1)), end])
     return borders

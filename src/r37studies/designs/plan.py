@@ -12,6 +12,7 @@ from r37core.config import Settings
 from r37core.config.families import Family
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure, Panel
+from r37core.plans.sweep_plan import Sweep
 
 from .compared import BOTH, Compared
 
@@ -102,16 +103,20 @@ def families_can_be_compared(settings: Settings) -> None:
             raise settings.documents.scenes.refusal((name,), f"'{name}', which is a family of blades, too", "another name")
 
 
+def _of(sweep: Sweep) -> Families:
+    return sweep.settings.made(Families)
+
+
 EXTENSION = Extension(
     name="designs",
     checks=(families_can_be_compared,),
-    targets=lambda sweep: {TABLE: [{}] if sweep.settings.made(Families).figures else []},
+    targets=lambda sweep: {TABLE: [{}] if _of(sweep).figures else []},
     figures=(
         # a run that has a map names it first
         Figure(
             rule="design_map",
             name="map_{family}",
-            runs=lambda sweep: paths.of("family", sweep.settings.made(Families).maps),
+            runs=lambda sweep: paths.of("family", _of(sweep).maps),
             draw="r37studies.designs.maps.draw_design_map",
             files={"table": TABLE},
             label="map of {family}",
@@ -119,13 +124,13 @@ EXTENSION = Extension(
             "revolutions, in the operating range where there is one; without any, share of the Goodman line. Diamonds: above "
             "yield, but not in most revolutions. Lines: where a requirement begins to fail.",
             category="Families",
-            arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
+            arguments=lambda sweep: {"compared": _of(sweep).compared},
             offered=("verdict",),
         ),
         Figure(
             rule="design_figure",
             name="designs_{family}",
-            runs=lambda sweep: paths.of("family", sweep.settings.made(Families).figures),
+            runs=lambda sweep: paths.of("family", _of(sweep).figures),
             draw="r37studies.designs.figures.draw_designs",
             files={"table": TABLE},
             label="{family}",
@@ -133,14 +138,11 @@ EXTENSION = Extension(
             "loss of clearance as the tip swings along free modes; where interactions lie, speeds above yield in most "
             "revolutions, in some and ever, stress, share of the Goodman line.",
             category="Families",
-            arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
+            arguments=lambda sweep: {"compared": _of(sweep).compared},
         ),
     ),
     closing="r37studies.designs.table.closing",
     panel=Panel(
-        TABLE,
-        "r37studies.designs.panel.contents",
-        "r37studies/designs/panel.js",
-        shown=lambda sweep: bool(sweep.settings.made(Families).maps),
+        TABLE, "r37studies.designs.panel.contents", "r37studies/designs/panel.js", shown=lambda sweep: bool(_of(sweep).maps)
     ),
 )

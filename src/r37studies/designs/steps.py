@@ -19,8 +19,8 @@ def tabulate(input: Any, output: Any, params: Any) -> None:
     """
     files = dict(input.items())
     summary, shapes = read_table(files.pop("summary")), as_list(files.pop("geometry"))
-    volumes = {blade: float(read_dataset(file)["volume"]) for blade, file in zip(params.densities, shapes, strict=True)}
-    masses = {blade: params.densities[blade] * volume for blade, volume in volumes.items()}
+    densities = zip(params.densities.items(), shapes, strict=True)
+    masses = {blade: density * float(read_dataset(file)["volume"]) for (blade, density), file in densities}
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     operating = params.operating and from_plain(OperatingRange, params.operating)
     pairs = dict(zip(map(tuple, params.pairs), params.errors, strict=True))

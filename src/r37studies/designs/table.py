@@ -93,10 +93,10 @@ def _structure(campbell: xr.Dataset) -> dict[str, float]:
 
 def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, float]:
     """How far the strongest interaction of 1B lies from its crossing (rad/s); NaN without one."""
-    scene_values = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
-    bending = scene_values[scene_values["mode"] == FIRST_BENDING]
-    strongest = bending["peak_rms_tangential_m"].idxmax() if len(bending) else None
-    return {"shift_1b_rad_s": np.nan if strongest is None else float(bending.loc[strongest, "shift_rad_s"])}
+    own = (interactions["blade"] == blade) & (interactions["scene"] == scene)
+    bending = interactions[own & (interactions["mode"] == FIRST_BENDING)]
+    shift = bending["shift_rad_s"].get(bending["peak_rms_tangential_m"].idxmax()) if len(bending) else np.nan
+    return {"shift_1b_rad_s": shift}
 
 
 def closing(results: Path) -> str:

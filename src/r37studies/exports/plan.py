@@ -87,10 +87,9 @@ class Exports:
 
     def matrix_files(self, wildcards: Any) -> dict[str, str]:
         """Files that matrices are written from: the reduced model, and the mesh where full ones are wanted."""
-        settings = self.sweep.settings
-        tip_line = settings.structure.boundary.tip_line
+        tip_line = self.sweep.settings.structure.boundary.tip_line
         files = {"rom": paths.REDUCED_MODEL.format(blade=wildcards.blade, tip_line=tip_line)}
-        if self._section.full_matrices and wildcards.blade in Sweep(settings).meshed_blades:
+        if self._section.full_matrices and wildcards.blade in self.sweep.meshed_blades:
             files |= {"mesh": paths.MESH.format(blade=wildcards.blade)}
         return files
 
@@ -110,13 +109,12 @@ class Exports:
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Files and folders that this run's configuration asks for."""
-    settings = sweep.settings
-    imported, formats = Sweep(settings), settings.section(SECTION).mesh_formats
+    meshed, formats = sweep.meshed_blades, sweep.settings.section(SECTION).mesh_formats
     return {
-        EXPORTED_MESH: [{"blade": blade, "format": name} for blade in imported.meshed_blades for name in formats],
-        EXPORTED_MODES: paths.of("blade", imported.meshed_blades),
-        EXPORTED_SURFACE: paths.of("blade", imported.made_by("geometry")),
-        EXPORTED_MATRICES: paths.of("blade", settings.blades),
+        EXPORTED_MESH: [{"blade": blade, "format": name} for blade in meshed for name in formats],
+        EXPORTED_MODES: paths.of("blade", meshed),
+        EXPORTED_SURFACE: paths.of("blade", sweep.made_by("geometry")),
+        EXPORTED_MATRICES: paths.of("blade", sweep.settings.blades),
         EXPORTED_STRESS: paths.run_keys(sweep.runs_with("stress")),
     }
 

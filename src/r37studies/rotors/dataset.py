@@ -40,11 +40,10 @@ VARIABLES = {
     ),
     **{name: ARRAYS[name] for name in ("leader", "wear_harmonic", "max_wear", "nodal_diameter_share", "status")},
     "diverged_revolution": Variable((), "1", "revolution at which the first blade diverged"),
-    **OF_ALL_SPEEDS,
 }
 """Dimensions are those beyond the speed."""
 
-RUNS = Along(rows="run", dim="speed", names=(*VARIABLES, "speed"), coordinates=("blade", "scene", "speed"))
+RUNS = Along(rows="run", dim="speed", names=(*VARIABLES, *OF_ALL_SPEEDS, "speed"), coordinates=("blade", "scene", "speed"))
 """Rotors of all blades and scenes: each speed is a run; NaN where a rotor has fewer blades."""
 
 AXES = {
@@ -62,12 +61,11 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
     Raises InputFileError for a file that cannot be read.
     """
     rows = [_row(read_speed(file), yield_stress) for file in files]
-    data = {name: np.stack([row[name] for row in rows]) for name in VARIABLES if name in rows[0]}
-    coordinates = {name: rows[0][name] for name in AXES if name in rows[0]}
-    speed_variables = {name: variable for name, variable in VARIABLES.items() if name not in OF_ALL_SPEEDS}
-    still = {name: (VARIABLES[name].dims, rows[0][name], VARIABLES[name].attributes) for name in OF_ALL_SPEEDS}
-    values = data | coordinates | {"speed": speeds}
-    return dataset_of(speed_variables, values, {"speed": SPEED, **AXES}, {}, ("speed",)).assign(still)
+    values = (
+        rows[0] | {name: np.stack([row[name] for row in rows]) for name in VARIABLES if name in rows[0]} | {"speed": speeds}
+    )
+    changing = dataset_of(VARIABLES, values, {"speed": SPEED, **AXES}, {}, ("speed",))
+    return changing.assign(dataset_of(OF_ALL_SPEEDS, values, {}, {}))
 
 
 def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
@@ -94,6 +92,11 @@ def _ends(revolutions: int, span: int) -> np.ndarray:
     return np.minimum(np.arange(span, revolutions + span, span), revolutions)
 
 
+def worst_place(rotor: xr.Dataset, measure: str) -> int:
+    """Place of the speed at which a measure of any blade is largest."""
+    return int(np.nan_to_num(rotor[measure].max("blade_number").values).argmax())
+
+
 def blades_above_yield(rotor: xr.Dataset) -> int:
     """The most blades that are above yield in most revolutions at one speed; runs that diverged do not count."""
     return int((rotor["blade_share_of_revolutions_above_yield"] > MOST_REVOLUTIONS).sum("blade_number").max())
@@ -108,18 +111,15 @@ def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
     rows = []
     for (blade, scene), file in files.items():
         dataset = read_dataset(file)
-        speeds = dataset["speed"].values
-        row = {"blade": blade, "scene": scene, "blades": dataset.sizes["blade_number"], "speeds": len(speeds)}
+        row = {"blade": blade, "scene": scene, "blades": dataset.sizes["blade_number"], "speeds": dataset.sizes["speed"]}
         row["diverged_speeds"] = int((dataset["status"] == RunStatus.DIVERGED).sum())
-        worst = int(np.nan_to_num(dataset["blade_rms"].max("blade_number").values).argmax())
-        if "blade_max_von_mises_ever" in dataset:
-            worst = int(np.nan_to_num(dataset["blade_max_von_mises_ever"].max("blade_number").values).argmax())
-            row["largest_stress_pa"] = float(dataset["blade_max_von_mises_ever"][worst].max())
-            row["blades_above_yield"] = blades_above_yield(dataset)
-        worst_run = dataset.isel(speed=worst)
-        row |= {"worst_speed_rad_s": float(speeds[worst]), "leader_by_motion": int(worst_run["leader"])}
-        if "blade_max_von_mises_ever" in dataset:
-            row["leader_by_stress"] = float(worst_run["blade_max_von_mises_ever"].idxmax())
+        stress = "blade_max_von_mises_ever"
+        worst_run = dataset.isel(speed=worst_place(dataset, stress if stress in dataset else "blade_rms"))
+        if stress in dataset:
+            row |= {"largest_stress_pa": float(worst_run[stress].max()), "blades_above_yield": blades_above_yield(dataset)}
+        row |= {"worst_speed_rad_s": float(worst_run["speed"]), "leader_by_motion": int(worst_run["leader"])}
+        if stress in dataset:
+            row["leader_by_stress"] = float(worst_run[stress].idxmax())
         shares = worst_run["nodal_diameter_share"]
         row |= {
             "leader_motion_m": float(worst_run["blade_rms"].max()),

@@ -14,7 +14,7 @@ from r37core.figures import style
 from r37core.figures.maps import draw_cells
 from r37core.time_integration.status import RunStatus
 
-from .dataset import blades_above_yield
+from .dataset import blades_above_yield, worst_place
 
 _MOTION = "rms of the motion (mm)"
 _DECADES = 3.0
@@ -27,7 +27,7 @@ def draw_rotor(rotor: xr.Dataset, title: str) -> Figure:
     figure.suptitle(f"{title}: a rotor of {rotor.sizes['blade_number']} blades")
     _draw_map(panels[0, 0], rotor)
     _draw_worst(panels[0, 1], rotor)
-    worst = rotor.isel(speed=int(np.nan_to_num(rotor["blade_rms"].max("blade_number").values).argmax()))
+    worst = rotor.isel(speed=worst_place(rotor, "blade_rms"))
     _draw_growth(panels[1, 0], worst)
     panels[1, 1].bar(worst["nodal_diameter"], 100.0 * worst["nodal_diameter_share"].fillna(0.0), width=0.8)
     panels[1, 1].set(xlabel=f"nodal diameters at {float(worst['speed']):g} rad/s", ylabel="share of the motion (%)")

@@ -8,12 +8,9 @@ time integration keeps the mean of the speeds at its ends, which passes the segm
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -63,35 +60,15 @@ _AT_ONCE = 500
 """Constant-speed segments of an interval."""
 
 
-class SpeedSegment(NamedTuple):
-    """A constant-speed segment: some samples at one speed (rad/s)."""
+class ModalInterval(NamedTuple):
+    """Constant-speed segments that are integrated in the modes of one `speed` (rad/s).
+
+    `speeds` (rad/s) and `samples` of each, shape (segments,).
+    """
 
     speed: float
-    samples: int
-
-
-@dataclass(frozen=True)
-class ModalInterval:
-    """Constant-speed segments that are integrated in the modes of one `speed` (rad/s)."""
-
-    speed: float
-    segments: tuple[SpeedSegment, ...]
-
-    @property
-    def distinct_speeds(self) -> tuple[np.ndarray, np.ndarray]:
-        """Different speeds (rad/s), shape (speeds,), and which of them each segment has, shape (segments,)."""
-        return np.unique([segment.speed for segment in self.segments], return_inverse=True)
-
-    @cached_property
-    def lasting(self) -> np.ndarray:
-        """Samples of each segment."""
-        return np.array([segment.samples for segment in self.segments])
-
-    def parts(self, samples: int) -> Iterator[slice]:
-        """The segments in lots of about so many samples."""
-        lots = (np.cumsum(self.lasting) - self.lasting) // samples
-        for first, last in pairwise([*np.unique(lots, return_index=True)[1], len(lots)]):
-            yield slice(first, last)
+    speeds: np.ndarray
+    samples: np.ndarray
 
 
 def schedule(run_up: RunUp, samples_per_revolution: int, squared_frequency_change: float) -> list[ModalInterval]:
@@ -105,45 +82,42 @@ def schedule(run_up: RunUp, samples_per_revolution: int, squared_frequency_chang
     low, high = sorted((run_up.start, run_up.stop))
     before, after = run_up.before * per_revolution, -samples % per_revolution + run_up.after * per_revolution
     if low == high:
-        return [ModalInterval(low, tuple(_turns(low, before + samples + after, per_revolution)))]
+        return [_held(low, before + samples + after, per_revolution)]
     change = _rising(low, high, samples, per_revolution, squared_frequency_change)
     if run_up.stop < run_up.start:
-        change = [replace(interval, segments=interval.segments[::-1]) for interval in reversed(change)]
-    first = ModalInterval(run_up.start, tuple(_turns(run_up.start, before, per_revolution)))
-    last = ModalInterval(run_up.stop, tuple(_turns(run_up.stop, after, per_revolution)))
-    return [interval for interval in (first, *change, last) if interval.segments]
+        change = [ModalInterval(speed, speeds[::-1], lasting[::-1]) for speed, speeds, lasting in reversed(change)]
+    first, last = _held(run_up.start, before, per_revolution), _held(run_up.stop, after, per_revolution)
+    return [interval for interval in (first, *change, last) if len(interval.samples)]
 
 
-def _turns(speed: float, samples: int, per_revolution: int) -> list[SpeedSegment]:
+def _held(speed: float, samples: int, per_revolution: int) -> ModalInterval:
     """Samples at one speed, in segments."""
-    number, rest = divmod(samples, LONGEST_SEGMENT * per_revolution)
-    whole = [SpeedSegment(speed, LONGEST_SEGMENT * per_revolution)] * number
-    return [*whole, SpeedSegment(speed, rest)] if rest else whole
+    lasting = np.diff([*range(0, samples, LONGEST_SEGMENT * per_revolution), samples])
+    return ModalInterval(speed, np.full(len(lasting), speed), lasting)
 
 
 def _rising(low: float, high: float, samples: int, per_revolution: int, squared_frequency_change: float) -> list[ModalInterval]:
     """The intervals of a speed that rises."""
     rise = high**2 - low**2
 
-    def speed_at(sample: float) -> float:
-        return math.sqrt(low**2 + rise * sample / samples)
+    def speed_at(sample: Any) -> Any:
+        return np.sqrt(low**2 + rise * sample / samples)
 
     rate = rise * per_revolution / (4.0 * np.pi * samples)
     # within a time T the rotor leads its mean speed by up to a T^2/8
-    lasting = math.sqrt(8.0 * LARGEST_LEAD / rate)
+    lasting = np.sqrt(8.0 * LARGEST_LEAD / rate)
     number = min(max(int(np.ceil(rise * abs(squared_frequency_change) / LARGEST_STIFFENING)), 1), samples)
-    ends = [round(samples * part / number) for part in range(number + 1)]
     intervals = []
-    for first, last in pairwise(ends):
-        segments, first_sample = [], first
-        while first_sample < last:
-            longest = int(lasting * speed_at(first_sample) / (2.0 * np.pi) * per_revolution)
-            following = min(first_sample + min(max(longest, 1), LONGEST_SEGMENT * per_revolution), last)
-            segments.append(SpeedSegment(0.5 * (speed_at(first_sample) + speed_at(following)), following - first_sample))
-            first_sample = following
+    for first, last in pairwise(round(samples * part / number) for part in range(number + 1)):
+        ends = [first]
+        while ends[-1] < last:
+            longest = int(lasting * speed_at(ends[-1]) / (2.0 * np.pi) * per_revolution)
+            ends.append(min(ends[-1] + min(max(longest, 1), LONGEST_SEGMENT * per_revolution), last))
+        speeds, modal_speed = speed_at(np.array(ends)), float(speed_at(0.5 * (first + last)))
+        segments = 0.5 * (speeds[:-1] + speeds[1:]), np.diff(ends)
         # some at a time: the numbers of all segments of an interval are in memory together
-        parts = [tuple(segments[part : part + _AT_ONCE]) for part in range(0, len(segments), _AT_ONCE)]
-        intervals += [ModalInterval(speed_at(0.5 * (first + last)), part) for part in parts]
+        for part in range(0, len(ends) - 1, _AT_ONCE):
+            intervals.append(ModalInterval(modal_speed, *(values[part : part + _AT_ONCE] for values in segments)))
     return intervals
 
 

@@ -82,12 +82,12 @@ def _direction(run: xr.Dataset) -> str:
 
 def _keys(runs: Iterable[xr.Dataset], colours: Mapping[float, Any]) -> dict[str, Line2D]:
     """Legend entries: the meaning of colours, dashes and crosses."""
-    keys = {f"{rate:.4g} rad/s²": Line2D([], [], color=colour) for rate, colour in colours.items()}
+    keys: dict[str, dict[str, Any]] = {f"{rate:.4g} rad/s²": {"color": colour} for rate, colour in colours.items()}
     there = {_direction(run) for run in runs}
-    keys |= {f"run-{name}": Line2D([], [], color="0.3", ls=dashes) for name, dashes in _DIRECTIONS.items() if name in there}
+    keys |= {f"run-{name}": {"color": "0.3", "ls": dashes} for name, dashes in _DIRECTIONS.items() if name in there}
     if any(run["worn"] for run in runs):
-        keys["worn before"] = Line2D([], [], color="0.3", ls="", marker=_LININGS["worn"], markersize=3)
-    return keys
+        keys["worn before"] = {"color": "0.3", "ls": "", "marker": _LININGS["worn"], "markersize": 3}
+    return {name: Line2D([], [], **look) for name, look in keys.items()}
 
 
 def draw_rates(runs: pd.DataFrame, title: str, scene: str) -> Figure:

@@ -64,8 +64,8 @@ class RunUpIntegration:
         self.model, self.run_up, self._scene = model, run_up, scene
         self.choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.grid.steps_per_sample)
         # between two speeds with a stable position there are only such
-        self._end_problems: dict[float, Problem] = {}
-        self._end_problems = {high: self._problem(high), low: coarsest}
+        self._end_problems = {low: coarsest}
+        self._end_problems[high] = self._problem(high)
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
         self.intervals = schedule(run_up, choice.samples_per_revolution, float(stiffening))
         self.start()
@@ -94,7 +94,8 @@ class RunUpIntegration:
         """Do all segments; ends with some that say so when the run diverges."""
         state, modes = self.state, None
         for interval in self.intervals:
-            problem, (distinct_speeds, segment_indices) = self._problem(interval.speed), interval.distinct_speeds
+            problem = self._problem(interval.speed)
+            distinct_speeds, segment_indices = np.unique(interval.speeds, return_inverse=True)
             constants = segments_at(problem, distinct_speeds)
             # in the memory of the one before
             before = None if self._simulation is None else self._simulation.engine
@@ -107,9 +108,12 @@ class RunUpIntegration:
             modes = problem.blade.modes
             simulation.engine.take(segment_indices[0])
             state.increment[:] = increments.increment(segment_indices[0], state.displacement, self.velocity)
-            revolutions_in_call = min(_AT_ONCE, revolutions_at_once(problem.grid.steps_per_revolution))
-            for part in interval.parts(revolutions_in_call * self.choice.samples_per_revolution):
-                indices, lasting = segment_indices[part], interval.lasting[part]
+            samples_in_call = self.choice.samples_per_revolution * min(
+                _AT_ONCE, revolutions_at_once(problem.grid.steps_per_revolution)
+            )
+            calls = (np.cumsum(interval.samples) - interval.samples) // samples_in_call
+            for part in np.split(np.arange(len(calls)), np.flatnonzero(np.diff(calls)) + 1):
+                indices, lasting = segment_indices[part], interval.samples[part]
                 call, first = Schedule(indices, lasting, len(state.displacement)), state.samples
                 record = simulation.advance_samples(state, int(lasting.sum()), call)
                 lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)

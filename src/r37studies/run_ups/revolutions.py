@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -57,30 +58,29 @@ def record_run_up(
         if diverged:
             break
     totals = integration.state.totals
-    result = revolutions.joined() | {
-        "status": np.array(int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED)),
-        "diverged_revolution": np.array(reached / choice.samples_per_revolution if diverged else np.nan),
-        "largest_normal_force": np.array(totals["largest_force"]),
-        "casing_hits": np.array(totals["casing_hits"]),
-        "start_speed": np.array(run_up.start),
-        "stop_speed": np.array(run_up.stop),
-        "rate": np.array(run_up.rate(choice.samples_per_revolution)),
-        "revolutions_before": np.array(run_up.before),
-        "revolutions_after": np.array(run_up.after),
-        "worn": np.array(int(run_up.worn)),
-        "yield_stress": np.array(yield_stress),
+    numbers: dict[str, Any] = {
+        "status": int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED),
+        "diverged_revolution": reached / choice.samples_per_revolution if diverged else np.nan,
+        "largest_normal_force": totals["largest_force"],
+        "casing_hits": totals["casing_hits"],
+        "start_speed": run_up.start,
+        "stop_speed": run_up.stop,
+        "rate": run_up.rate(choice.samples_per_revolution),
+        "revolutions_before": run_up.before,
+        "revolutions_after": run_up.after,
+        "worn": int(run_up.worn),
+        "yield_stress": yield_stress,
     }
     if stress is not None and cycles:
         largest, damage = np.nan, np.inf if strengths.have_line else np.nan
         if not diverged:
             after = np.concatenate(cycles)[run_up.before * choice.snapshots_per_revolution :]
             largest, damage = largest_damage(stress, after, strengths)
-        result |= {"largest_stress_range": np.array(largest), "miner_sum": np.array(damage)}
-    if "wear" not in results:
-        del result["max_wear"]
+        numbers |= {"largest_stress_range": largest, "miner_sum": damage}
     if "energy" in results:
-        result |= integration.balance | {"stiffness_work": np.array(integration.stiffness_work)}
-    return result
+        numbers |= {**integration.balance, "stiffness_work": integration.stiffness_work}
+    arrays = revolutions.joined() | {name: np.array(number) for name, number in numbers.items()}
+    return {name: array for name, array in arrays.items() if name != "max_wear" or "wear" in results}
 
 
 @dataclass
@@ -100,11 +100,11 @@ class _Revolutions:
     def add(self, segments: IntegratedSegments) -> None:
         """Add some segments; the last sample of those that diverged, which may be infinite, is left out."""
         count = len(segments.samples) - segments.diverged
-        self._wait(
-            samples=segments.samples[:count].reshape(count, len(TIP_POINTS), len(DIRECTIONS)),
-            interval=2.0 * np.pi / self.choice.samples_per_revolution / segments.speeds[:count],
-            wear=segments.wear[:count],
-        )
+        arrays = {
+            "samples": segments.samples[:count].reshape(count, len(TIP_POINTS), len(DIRECTIONS)),
+            "interval": 2.0 * np.pi / self.choice.samples_per_revolution / segments.speeds[:count],
+            "wear": segments.wear[:count],
+        }
         if self.stress is not None:
             if segments.shapes is not self.shapes:
                 self.shapes, to_reduced = segments.shapes, self.model.to_reduced @ segments.shapes
@@ -115,21 +115,21 @@ class _Revolutions:
             if self.static_stress:
                 numbers = append_rotation(numbers, self.model, segments.snapshot_speeds)
             # of a sum of shapes the stress is no more than the sum of theirs
-            self._wait(coordinates=numbers @ self._to_stressed.T, bound=np.abs(numbers) @ self._stress_of_shapes)
-        waiting = sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution
-        if waiting >= _AT_ONCE:
-            self._reduce(waiting)
+            arrays |= {"coordinates": numbers @ self._to_stressed.T, "bound": np.abs(numbers) @ self._stress_of_shapes}
+        for name, array in arrays.items():
+            self.waiting.setdefault(name, []).append(array)
+        self._reduce(_AT_ONCE)
 
     def joined(self) -> dict[str, np.ndarray]:
         """All whole revolutions."""
-        self._reduce(sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution)
+        self._reduce(0)
         return {name: np.concatenate([part[name] for part in self.reduced]) for name in self.reduced[0]}
 
-    def _wait(self, **arrays: np.ndarray) -> None:
-        for name, array in arrays.items():
-            self.waiting.setdefault(name, []).append(array)
-
-    def _reduce(self, revolutions: int) -> None:
+    def _reduce(self, fewest: int) -> None:
+        """Reduce the whole revolutions that wait, where they are not fewer."""
+        revolutions = sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution
+        if revolutions < fewest:
+            return
         arrays = {}
         for name, parts in self.waiting.items():
             instants = name in ("coordinates", "bound")

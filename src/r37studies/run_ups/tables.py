@@ -54,17 +54,17 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
             "casing_hits": int(run["casing_hits"]),
         }
     if "max_von_mises" in run:
-        row |= {"largest_stress_pa": np.nan, "yield_stress_pa": float(run["yield_stress"])}
-    if "max_von_mises" in run and run["max_von_mises"].notnull().any():
         stress, limit = run["max_von_mises"].values, float(run["yield_stress"])
-        worst, first = int(np.argmax(stress)), first_yield(stress, limit)
-        row |= {
-            "largest_stress_pa": float(stress[worst]),
-            "largest_stress_speed_rad_s": float(speed[worst]),
-            "first_yield_speed_rad_s": float(speed[int(first) - 1]) if np.isfinite(first) else np.nan,
-            "revolutions_above_yield": int(np.count_nonzero(stress > limit)),
-            "last_von_mises_pa": float(stress[-1]),
-        }
+        row |= {"largest_stress_pa": np.nan, "yield_stress_pa": limit}
+        if np.isfinite(stress).any():
+            worst, first = int(np.argmax(stress)), first_yield(stress, limit)
+            row |= {
+                "largest_stress_pa": float(stress[worst]),
+                "largest_stress_speed_rad_s": float(speed[worst]),
+                "first_yield_speed_rad_s": float(speed[int(first) - 1]) if np.isfinite(first) else np.nan,
+                "revolutions_above_yield": int(np.count_nonzero(stress > limit)),
+                "last_von_mises_pa": float(stress[-1]),
+            }
     for name, column in (("miner_sum", "miner_sum"), ("largest_stress_range", "largest_stress_range_pa")):
         if name in run:
             row[column] = float(run[name])

@@ -23,11 +23,7 @@ _JOINED = (
     "share_of_revolutions_above_yield",
     "max_wear",
     "used_thickness",
-    "motion_kind",
-    "lyapunov_exponent",
-    "lyapunov_exponent_error",
-    "recurrence",
-    "recurrence_period",
+    *OF_KIND,
     "status",
     "motion_at_end",
 )
@@ -52,7 +48,7 @@ def pair_motions(responses: Sequence[Path | str], states: Mapping[str, SweptStat
     pair = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=over_motions)
     levels, over = levels_of(states), ("motion", "speed")
     mean = np.where(np.isinf(levels.mean), np.nan, levels.mean)
-    compared = np.isin(np.arange(len(MOTIONS)), levels.compared).astype(float)
+    compared = np.isin(range(len(MOTIONS)), levels.compared).astype(float)
     differ = about("1", "1 where two of the compared motions differ by more than they scatter")
     return pair.assign(
         motion_mean=(over, mean, about("m", "mean rms of a revolution, normal and tangential together")),

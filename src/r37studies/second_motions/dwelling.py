@@ -67,11 +67,9 @@ def _levels_near(levels: MotionLevels, speed: float, distance: float) -> dict[st
     """Levels (m) of the largest and the smallest motion at the nearest speed at which motions differ; NaN without one."""
     distances = np.where(levels.differ, np.abs(levels.speeds - speed), np.inf)
     place = int(np.argmin(distances))
-    if distances[place] > distance:
-        return {"level_high": np.nan, "level_low": np.nan}
+    near = {f"level_{name}": places[place] for name, places in ((HIGH, levels.high), (LOW, levels.low))}
     return {
-        "level_high": float(levels.mean[levels.high[place], place]),
-        "level_low": float(levels.mean[levels.low[place], place]),
+        name: float(levels.mean[motion, place]) if distances[place] <= distance else np.nan for name, motion in near.items()
     }
 
 

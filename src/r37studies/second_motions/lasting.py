@@ -42,29 +42,29 @@ def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float, *, 
     """
     held = {start: [is_high(each, high, low) for each in several] for start, several in rms.items()}
     # a motion may be left before the first revolution that counts
-    begun = {HIGH: [np.append(True, part) for part in held[HIGH]], LOW: [np.append(True, ~part) for part in held[LOW]]}
-    ended = [bool(part[-1]) for part in held[RANDOM] if len(part)]
-    lost = {start: not rms[start] or any(np.isnan(each).any() for each in rms[start]) for start in (HIGH, LOW)}
-    if lined:
-        since = {start: [np.logical_and.accumulate(part) for part in several] for start, several in begun.items()}
-        left = {start: sum(int(not part[-1]) for part in several) for start, several in since.items()}
-        back = {start: sum(int(part[-1]) for part in several) == len(several) for start, several in begun.items()}
-        verdicts = {start: Lasting.LASTING if back[start] else Lasting.TRANSIENT for start in begun}
-        first = {start: _held(sum(int(part[1:].sum()) for part in since[start]), left[start]) for start in begun}
-        times = {start: np.inf if back[start] else first[start] for start in begun}
-    else:
-        counted = [*begun[HIGH], *(~part for part in begun[LOW]), *map(_settled, held[RANDOM])]
-        left = {
-            HIGH: sum(int(np.count_nonzero(part[:-1] & ~part[1:])) for part in counted),
-            LOW: sum(int(np.count_nonzero(~part[:-1] & part[1:])) for part in counted),
-        }
-        above = sum(int(part.sum()) for part in counted) - len(begun[HIGH])
-        below = sum(int((~part).sum()) for part in counted) - len(begun[LOW])
-        verdicts = {HIGH: _lasting(left[HIGH], left[LOW]), LOW: _lasting(left[LOW], left[HIGH])}
-        times = {HIGH: _held(above, left[HIGH]), LOW: _held(below, left[LOW])}
-    verdicts |= {start: Lasting.DIVERGED for start, gone in lost.items() if gone}
+    begun = {HIGH: [np.append(True, part) for part in held[HIGH]], LOW: [np.append(False, part) for part in held[LOW]]}
+    left, times, ended = {}, {}, [bool(part[-1]) for part in held[RANDOM] if len(part)]
+    for start in begun:
+        if lined:
+            # up to the first time that it is left
+            parts = [np.logical_and.accumulate(part == (start == HIGH)) for part in begun[start]]
+        else:
+            dwells = (*begun[HIGH], *begun[LOW], *map(_settled, held[RANDOM]))
+            parts = [part == (start == HIGH) for part in dwells]
+        left[start] = sum(np.count_nonzero(part[:-1] & ~part[1:]) for part in parts)
+        revolutions = sum(map(np.count_nonzero, parts)) - len(begun[start])
+        times[start] = revolutions / left[start] if left[start] else np.inf if revolutions else np.nan
+    verdicts, lost = {}, {start: not rms[start] or any(np.isnan(each).any() for each in rms[start]) for start in begun}
+    for start, other in ((HIGH, LOW), (LOW, HIGH)):
+        lasts = all(part[-1] == (start == HIGH) for part in begun[start]) if lined else not left[start]
+        if lined and lasts:
+            times[start] = np.inf
+        switching = left[other] and not lined
+        verdicts[start] = Lasting.LASTING if lasts else Lasting.SWITCHING if switching else Lasting.TRANSIENT
+        if lost[start]:
+            verdicts[start] = Lasting.DIVERGED
     share = np.nan if lined or any(lost.values()) else _share(times[HIGH], times[LOW])
-    values = (verdicts[HIGH], verdicts[LOW], share, times[HIGH], times[LOW], float(np.mean(ended)) if ended else np.nan)
+    values = (*verdicts.values(), share, *times.values(), float(np.mean(ended)) if ended else np.nan)
     return dict(zip(VERDICT, values, strict=True))
 
 
@@ -72,16 +72,6 @@ def _settled(held: np.ndarray) -> np.ndarray:
     """Motions that a random start holds from its first change on; all of them where it has none."""
     changes = np.flatnonzero(held[:-1] != held[1:])
     return held[changes[0] + 1 :] if len(changes) else held
-
-
-def _lasting(left: int, come_back: int) -> Lasting:
-    if not left:
-        return Lasting.LASTING
-    return Lasting.SWITCHING if come_back else Lasting.TRANSIENT
-
-
-def _held(revolutions: int, left: int) -> float:
-    return revolutions / left if left else (np.inf if revolutions else np.nan)
 
 
 def _share(high: float, low: float) -> float:

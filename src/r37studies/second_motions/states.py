@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from scipy.ndimage import find_objects, label
 
 from r37core.base.io import atomic_write, readable
 from r37core.time_integration.carrying import END_WEAR, CarriedMotion, motion_names
@@ -45,20 +46,19 @@ def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: floa
 
     Wear of carried linings is in single precision.
     """
-    runs = [_state_numbers(read_speed(each)) for each in files]
-    counted = [_counted(run) for run in runs]
-    arrays = {name: np.array([run[name] for run in runs]) for name in ("status", *motion_names(runs[0]))}
+    runs = []
+    for each in files:
+        run = read_speed(each)
+        # without its other numbers: those of all speeds are in memory together
+        kept = {name: run[name] for name in ("status", *motion_names(run))}
+        runs.append(kept | {"revolution_rms": _counted(run)})
+    arrays = {name: np.array([run[name] for run in runs]) for name in runs[0]}
     if END_WEAR in arrays:
         arrays[END_WEAR] = arrays[END_WEAR].astype(np.float32)
+    rms = arrays.pop("revolution_rms")
     with atomic_write(file) as partial:
-        arrays |= {"speed": np.array(speeds), "revolution_rms": np.array(counted), "clearance": np.array(clearance)}
+        arrays |= {"speed": np.array(speeds), "revolution_rms": rms, "clearance": np.array(clearance)}
         np.savez_compressed(partial, allow_pickle=False, **arrays)
-
-
-def _state_numbers(run: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Numbers of a run that its state is made of, without the others: those of all speeds are in memory together."""
-    needed = ("status", "statistic_end", "statistic_revolutions", "revolution_rms", *motion_names(run))
-    return {name: run[name] for name in needed}
 
 
 def _counted(run: Mapping[str, np.ndarray]) -> np.ndarray:
@@ -83,42 +83,29 @@ class MotionLevels:
     speeds: np.ndarray
     mean: np.ndarray
     scatter: np.ndarray
-    compared: tuple[int, ...]
+    compared: np.ndarray
     differ: np.ndarray
-
-    @classmethod
-    def averaged(cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float, *, worn: bool) -> "MotionLevels":
-        """Levels by the rms (m) of the revolutions that count, motion -> shape (speeds, revolutions); NaN after a run's end."""
-        counted = [np.ma.masked_invalid(rms[motion]) for motion in MOTIONS]
-        mean = np.array([part.mean(axis=1).filled(np.inf) for part in counted])
-        scatter = np.array([part.std(axis=1).filled(0.0) for part in counted])
-        compared = tuple(place for place, motion in enumerate(MOTIONS) if not (worn and motion == REST))
-        differ = motions_differ(mean[list(compared)], scatter[list(compared)], clearance)
-        return cls(np.asarray(speeds), mean, scatter, compared, differ)
 
     @classmethod
     def read(cls, pair: xr.Dataset) -> "MotionLevels":
         """Levels of one blade and scene of second_motions.nc."""
         mean, scatter = (pair[f"motion_{name}"].transpose("motion", "speed").values for name in ("mean", "scatter"))
-        compared = tuple(np.flatnonzero(pair["compared"].values > 0.0).tolist())
-        differ = pair["differ"].values > 0.0
+        compared, differ = np.flatnonzero(pair["compared"].values > 0.0), pair["differ"].values > 0.0
         return cls(pair["speed"].values, np.nan_to_num(mean, nan=np.inf), np.nan_to_num(scatter), compared, differ)
 
     @property
     def high(self) -> np.ndarray:
         """Place of the largest of the compared motions at each speed, shape (speeds,)."""
-        return np.array(self.compared)[np.argmax(self.mean[list(self.compared)], axis=0)]
+        return self.compared[np.argmax(self.mean[self.compared], axis=0)]
 
     @property
     def low(self) -> np.ndarray:
         """Place of the smallest of the compared motions at each speed, shape (speeds,)."""
-        return np.array(self.compared)[np.argmin(self.mean[list(self.compared)], axis=0)]
+        return self.compared[np.argmin(self.mean[self.compared], axis=0)]
 
     def ranges(self) -> list[slice]:
         """Places of the speeds of each range of hysteresis: neighbours at which motions differ."""
-        differ = np.concatenate([[False], self.differ, [False]])
-        firsts, ends = np.flatnonzero(~differ[:-1] & differ[1:]), np.flatnonzero(differ[:-1] & ~differ[1:])
-        return [slice(int(first), int(end)) for first, end in zip(firsts, ends, strict=True)]
+        return [part for (part,) in find_objects(label(self.differ)[0])] if self.differ.any() else []
 
     def worst(self, part: slice) -> int:
         """Place of the speed in a range at which the largest motion is most above the smallest."""
@@ -146,5 +133,9 @@ def motions_differ(mean: np.ndarray, scatter: np.ndarray, clearance: float) -> n
 
 def levels_of(states: Mapping[str, SweptStates]) -> MotionLevels:
     """Levels of the motions of a blade and scene, by motion."""
-    first, rms = states[MOTIONS[0]], {motion: each.rms for motion, each in states.items()}
-    return MotionLevels.averaged(first.speeds, rms, float(first.clearance), worn=first.worn)
+    first, counted = states[MOTIONS[0]], [np.ma.masked_invalid(states[motion].rms) for motion in MOTIONS]
+    mean = np.array([part.mean(axis=1).filled(np.inf) for part in counted])
+    scatter = np.array([part.std(axis=1).filled(0.0) for part in counted])
+    compared = np.flatnonzero([not (first.worn and motion == REST) for motion in MOTIONS])
+    differ = motions_differ(mean[compared], scatter[compared], float(first.clearance))
+    return MotionLevels(first.speeds, mean, scatter, compared, differ)

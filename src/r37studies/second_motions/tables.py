@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from r37core.results.closing import counted
-from r37core.results.columns import Column
+from r37core.results.columns import Column, names
 from r37core.results.other_motions import swept
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import MotionKind
@@ -45,7 +45,7 @@ RANGES = (
 )
 """Columns of second_motions.csv."""
 
-RANGE_COLUMNS = tuple(column.name for column in RANGES)
+RANGE_COLUMNS = names(RANGES)
 """Names of the columns of second_motions.csv."""
 
 DWELL_COLUMNS = (

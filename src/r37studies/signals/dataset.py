@@ -63,8 +63,7 @@ def signals_dataset(
     values = signals | {
         "casing_angle": [np.degrees(np.arctan2(y, x) - 2.0 * np.pi * first.turn) % 360.0] * len(speeds),
         "gauge_place": [np.array(list(gauges.values())).reshape(-1, 3)] * len(speeds),
-        "arrival_time": [times for times, _ in arrivals],
-        "arrival_displacement": [displacements for _, displacements in arrivals],
+        **dict(zip(("arrival_time", "arrival_displacement"), np.array(arrivals).swapaxes(0, 1), strict=True)),
         "status": [int(record.status) for record in records.values()],
         "speed": speeds,
         "turn": first.turn,
@@ -78,15 +77,12 @@ def signals_dataset(
     return dataset if gauges else dataset.drop_dims("axis")
 
 
-def _arrivals(
-    record: Record, speed: float, probes: np.ndarray, numbers: np.ndarray, tip: RecoveryNodes
-) -> tuple[np.ndarray, np.ndarray]:
-    """Arrivals (s) and displacements (m) of both tip points, shape (2, probes, revolutions)."""
+def _arrivals(record: Record, speed: float, probes: np.ndarray, numbers: np.ndarray, tip: RecoveryNodes) -> np.ndarray:
+    """Arrivals (s) and displacements (m) of both tip points, shape (2, 2, probes, revolutions)."""
     times = record.turn * 2.0 * np.pi / speed
-    arrivals, displacements = [], []
+    arrivals = []
     for (x, y, _), tangential in zip(tip.select([0, -1]).points, record.tangential.T, strict=True):
         radius, theta = float(np.hypot(x, y)), float(np.arctan2(y, x))
         arrived, rigid = arrival_times(times, tangential, radius, speed, theta - probes, numbers)
-        arrivals.append(arrived)
-        displacements.append(radius * speed * (arrived - rigid))
-    return np.array(arrivals), np.array(displacements)
+        arrivals.append((arrived, radius * speed * (arrived - rigid)))
+    return np.array(arrivals).swapaxes(0, 1)
