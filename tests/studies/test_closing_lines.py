@@ -1,6 +1,7 @@
 """Closing lines of the studies."""
 
 import numpy as np
+import pytest
 import xarray as xr
 from test_closing import STRESS, WHERE, table
 
@@ -27,27 +28,28 @@ def test_rotors(tmp_path):
         assert rotors.closing(tmp_path) == f"2 rotors{said}; the largest stress 2.31 GPa, Ref in lined at 1640 rad/s"
 
 
-def test_designs(tmp_path):
+TIED = "2 designs; lined: 2 of 2 cannot be told apart by their speeds above yield in most revolutions"
+GOODMAN = {"largest_goodman_share": [0.4, 0.55, np.nan]}
+OVER_YIELD = {"largest_stress_over_yield": [np.nan, 3.0, np.nan]}
+
+
+@pytest.mark.parametrize(
+    ("within", "diverged", "more", "said"),
+    [
+        (20.0, 0, GOODMAN, "2 designs; lined: B is above yield in most revolutions at the fewest speeds (13 rad/s)"),
+        (25.0, 0, GOODMAN | OVER_YIELD, f"{TIED}; of these A has the least share of the Goodman line (0.4)"),
+        # one that diverged has no largest share
+        (25.0, 1, GOODMAN, f"{TIED}; of these B has the least share of the Goodman line (0.55)"),
+        (25.0, 0, OVER_YIELD, f"{TIED}; of these B has the least stress over yield (3)"),
+        (25.0, 0, {}, TIED),
+    ],
+)
+def test_designs(tmp_path, within, diverged, more, said):
     """Those that cannot be told apart are counted, and the number that the choice among them is made by is told."""
-    lengths = {"length_most_revolutions_rad_s": [40.0, 13.2, np.nan], "length_some_revolutions_rad_s": [50.0, 20.0, np.nan]}
-    more = {"length_most_revolutions_within_rad_s": [20.0, 10.0, np.nan], "largest_goodman_share": [0.4, 0.55, np.nan]}
-    more["diverged_runs"] = [0, 0, 0]
+    lengths = {"length_most_revolutions_rad_s": [40.0, 13.2, np.nan], "diverged_runs": [diverged, 0, 0]}
+    lengths["length_most_revolutions_within_rad_s"] = [within, 10.0, np.nan]
     table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
-    assert designs.closing(tmp_path) == "2 designs; lined: B is above yield in most revolutions at the fewest speeds (13 rad/s)"
-    more["length_most_revolutions_within_rad_s"] = [25.0, 10.0, np.nan]
-    more["largest_stress_over_yield"] = [np.nan, 3.0, np.nan]
-    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
-    tied = "2 designs; lined: 2 of 2 cannot be told apart by their speeds above yield in most revolutions; of these "
-    assert designs.closing(tmp_path) == tied + "A has the least share of the Goodman line (0.4)"
-    # one that diverged has no largest share
-    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=3 * ["lined"], **lengths, **more | {"diverged_runs": [1, 0, 0]})
-    assert designs.closing(tmp_path).endswith("of these B has the least share of the Goodman line (0.55)")
-    del more["largest_goodman_share"]
-    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
-    assert designs.closing(tmp_path) == tied + "B has the least stress over yield (3)"
-    del more["largest_stress_over_yield"]
-    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
-    assert designs.closing(tmp_path) == tied.removesuffix("; of these ")
+    assert designs.closing(tmp_path) == said
 
 
 def test_tolerances(tmp_path):

@@ -48,9 +48,7 @@ def test_growth_is_kept_in_spans_of_revolutions():
     spans, span = span_maxima(values)
     assert span == 3 and spans.shape == (2, 134) and spans.dtype == np.float32
     np.testing.assert_array_equal(spans[:, [0, 1, -2, -1]], [[2, 5, 398, 400], [403, 406, 799, 801]])
-    for revolutions, length in ((1, 1), (MOST_GROWTH, 1), (MOST_GROWTH + 1, 2), (20000, 100)):
-        spans, span = span_maxima(np.zeros((1, revolutions)))
-        assert span == length and spans.shape[-1] == -(-revolutions // length) <= MOST_GROWTH
+    assert [span_maxima(np.zeros((1, count)))[1] for count in (1, MOST_GROWTH, MOST_GROWTH + 1, 20000)] == [1, 1, 2, 100]
 
 
 MODES = tuple(replace(mode, modal_mass=1e6 * mode.modal_mass) for mode in RING.modes())
@@ -146,10 +144,6 @@ def test_dataset_table_and_figure(tmp_path):
     assert many["blade_longer"].values.tolist() == [1e-5] * 6 and many["yield_stress"] == 2e-5
     assert many["span"].values.tolist() == [1, 2, 3] and many["stress_span"].values.tolist() == [2, 3]
     assert many["lobes"].values.tolist() == list(range(many.sizes["lobes"])) and many.sizes["lobes"] > 3
-    share = many["blade_share_of_revolutions_above_yield"]
-    np.testing.assert_allclose(share, (many["blade_von_mises"] > 2e-5).mean("stress_span"))
-    assert 0.0 < share.mean() < 1.0
-    np.testing.assert_array_equal(many["blade_max_von_mises_ever"], many["blade_von_mises"].max("stress_span"))
     assert "6 blades" in draw_rotor(many, "Ref, many").get_suptitle()
 
 

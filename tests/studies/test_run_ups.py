@@ -7,12 +7,10 @@ import pandas as pd
 import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Lining, Scene
-from integration_cases import ABRADABLE, LINING, oscillator, with_static_modes
-from integration_runs import ENGINES, in_all_directions
+from integration_cases import ABRADABLE, NARROW, oscillator, with_static_modes
+from integration_runs import in_all_directions
 from reference_engine import ReferenceSimulation
-from reference_run_up import RUN_UPS
 from scipy.integrate import solve_ivp
-from scipy.special import wofz
 
 from r37core.base.io import InputFileError
 from r37core.contact.ring import RingMode
@@ -28,16 +26,15 @@ from r37core.time_integration.step_limit import UnstableStepError
 from r37studies.run_ups import choice as schedule_module
 from r37studies.run_ups import integration as integration_module
 from r37studies.run_ups import revolutions as revolutions_module
-from r37studies.run_ups.choice import Crossing, RunUp, RunUpChoice, RunUpError, check_highest, schedule
+from r37studies.run_ups.choice import Crossing, RunUp, RunUpChoice, RunUpError, schedule
 from r37studies.run_ups.dataset import VARIABLES as RUN_UP_ARRAYS
 from r37studies.run_ups.dataset import runs_of, write_run_ups
 from r37studies.run_ups.figures import draw_rates, draw_run_ups
-from r37studies.run_ups.integration import IntegratedSegments, RunUpIntegration
-from r37studies.run_ups.revolutions import largest_stress, record_run_up
+from r37studies.run_ups.integration import RunUpIntegration
+from r37studies.run_ups.revolutions import record_run_up
 from r37studies.run_ups.tables import rate_table, run_up_table
 
 LONG = IntegrationChoice(3.2e-6, 4, 62, integrator=EXACT_MODAL)
-NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
 FREE = Scene(Casing(1.0, lobes=0))
 UNDAMPED = replace(FREE, damping_ratio=0.0)
 
@@ -47,38 +44,23 @@ def samples_of(integration):
 
 
 def segments_of(intervals):
-    return [segment for interval in intervals for segment in interval.segments]
+    """Speeds and samples of all segments."""
+    return [np.concatenate([interval[part] for interval in intervals]) for part in (1, 2)]
 
 
 @pytest.mark.parametrize(("start", "stop"), [(1300.0, 1800.0), (1800.0, 1300.0), (100.0, 101.0)])
 @pytest.mark.parametrize("revolutions", [0.4, 3.7, 250.0])
 def test_a_schedule_keeps_angle_and_time_of_a_constant_rate(start, stop, revolutions):
     per_revolution = 496
-    segments = segments_of(schedule(RunUp(start, stop, revolutions, 3, 2, worn=False), per_revolution, 1e-8))
-    samples = sum(segment.samples for segment in segments)
-    assert samples % per_revolution == 0
-    assert samples == per_revolution * (5 + np.ceil(round(revolutions * per_revolution) / per_revolution))
-    changing = [one for one in segments if one.speed not in (start, stop)]
-    time = sum(2.0 * np.pi * one.samples / per_revolution / one.speed for one in changing)
-    angle = 2.0 * np.pi * sum(one.samples for one in changing) / per_revolution
+    speeds, samples = segments_of(schedule(RunUp(start, stop, revolutions, 3, 2, worn=False), per_revolution, 1e-8))
+    assert sum(samples) == per_revolution * (5 + np.ceil(round(revolutions * per_revolution) / per_revolution))
+    changing = (speeds != start) & (speeds != stop)
+    angles = 2.0 * np.pi * samples[changing] / per_revolution
+    angle, time = sum(angles), sum(angles / speeds[changing])
     assert angle == pytest.approx(2.0 * np.pi * round(revolutions * per_revolution) / per_revolution, rel=1e-12)
     # at a constant rate the mean speed is that of the ends
     assert time == pytest.approx(angle / (0.5 * (start + stop)), rel=1e-12)
-    assert np.all(np.diff([one.speed for one in changing]) * np.sign(stop - start) > 0.0)
-
-
-def test_a_run_down_is_its_run_up_backwards():
-    up, down = (schedule(RunUp(*ends, 40.3, 1, 0, worn=False), 496, 2e-7) for ends in ((1500.0, 1700.0), (1700.0, 1500.0)))
-    assert segments_of(up[1:-1]) == segments_of(down[1:-1])[::-1]
-    assert [one.speed for one in up[1:-1]] == [one.speed for one in down[1:-1]][::-1]
-
-
-@pytest.mark.parametrize("engine", ENGINES)
-def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
-    run = ENGINES[engine](contact, 1600.0, NARROW, LONG)
-    expected = run.advance(run.start(), 6).samples
-    integration = RUN_UPS[engine](contact, NARROW, LONG, RunUp(1600.0, 1600.0, 1.5, 4, 0, worn=False))
-    np.testing.assert_array_equal(samples_of(integration), expected)
+    assert np.all(np.diff(speeds[changing]) * np.sign(stop - start) > 0.0)
 
 
 def test_the_reference_slides_with_the_speed_of_each_segment(contact):
@@ -101,23 +83,6 @@ def test_a_change_that_ends_where_it_began_hardly_differs_from_the_run_at_that_s
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-5 * np.abs(expected).max())
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("ends", "intervals", "segments"), [((5000.0, 6000.0), 6, 1), ((1600.0, 1650.0), 2, 10)])
-@pytest.mark.parametrize("scene", [NARROW, replace(ABRADABLE, lining=None)], ids=["abradable", "direct"])
-def test_compiled_run_up_is_that_of_the_reference(contact, scene, ends, intervals, segments):
-    choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
-    run_up = RunUp(*ends, 1.3, 1, 0, worn=False)
-    ours, theirs = (run_up_class(contact, scene, choice, run_up) for run_up_class in RUN_UPS.values())
-    found, expected = samples_of(ours), samples_of(theirs)
-    assert len(ours.intervals) >= intervals
-    assert max(len(interval.segments) for interval in ours.intervals) >= segments
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
-    for name in ("work", "loss"):
-        assert ours.state.totals[name] == pytest.approx(float(theirs.state.totals[name]), rel=1e-8)
-    assert ours.stiffness_work == pytest.approx(theirs.stiffness_work, rel=1e-8)
-    assert ours.stiffness_work != 0.0
-
-
 @pytest.mark.parametrize(
     ("module", "limit", "stop"), [(integration_module, "_AT_ONCE", 1650.0), (integration_choice, "STEPS_AT_ONCE", 1605.0)]
 )
@@ -134,18 +99,6 @@ def test_it_does_not_matter_how_much_the_engine_does_at_once(contact, monkeypatc
     # the wear of each sample
     assert np.all(np.diff(found) >= 0.0)
     assert found[-1] > 0.0
-
-
-@pytest.mark.parametrize("scene", [NARROW, replace(ABRADABLE, lining=None)], ids=["abradable", "direct"])
-def test_energy_closes_with_the_work_of_the_changing_stiffness(contact, scene):
-    choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
-    integration = RunUpIntegration(contact, scene, choice, RunUp(1500.0, 1900.0, 3.2, 1, 0, worn=False))
-    samples_of(integration)
-    balance = integration.balance
-    work, loss = balance["contact_work"], balance["damping_loss"]
-    assert loss > 0.0
-    assert abs(integration.stiffness_work) > 1e-6 * abs(work)
-    assert abs(balance["energy_change"] - work + loss - integration.stiffness_work) < 1e-10 * (abs(work) + loss)
 
 
 @pytest.mark.parametrize("integrator", ["exact_modal", "central_difference"])
@@ -204,41 +157,23 @@ def test_free_motion_is_that_of_the_whole_stiffness_at_every_speed(monkeypatch):
     assert errors[1] < 0.1 * errors[0]
 
 
-@pytest.mark.parametrize("integrator", ["exact_modal", "central_difference"])
-def test_without_contact_a_run_up_and_its_run_down_give_back_what_was_there(contact, integrator):
-    """Undamped motion goes back the way it came when its velocity is turned round, through all changes of the modes."""
-    choice = replace(LONG, time_step=1e-7 if integrator == "central_difference" else 5e-7, integrator=integrator)
-    ends = ((4000.0, 5000.0), (5000.0, 4000.0))
-    up, down = (RunUpIntegration(contact, UNDAMPED, choice, RunUp(*one, 2.0, 1, 0, worn=False)) for one in ends)
-    up.intervals, down.intervals = up.intervals[1:], down.intervals[1:]
-    started = 1e-5 / (1.0 + np.arange(len(up.velocity))), 1e-2 * np.ones(len(up.velocity))
-    up.state.displacement[:], up.velocity = started
-    largest = np.abs(samples_of(up)).max()
-    assert len(up.intervals) > 5
-    assert np.abs(up.state.displacement - started[0]).max() > 1e-6
-    down.state.displacement, down.velocity = up.state.displacement, -up.velocity
-    samples_of(down)
-    # what the speed turns into static modes is lost
-    within = 1e-9 if integrator == "central_difference" else 1e-8
-    np.testing.assert_allclose(down.state.displacement, started[0], rtol=0, atol=within * largest)
-    np.testing.assert_allclose(-down.velocity, started[1], rtol=0, atol=1e2 * within)
-
-
-def test_a_swept_oscillator_follows_the_closed_form(monkeypatch):
-    """A mode always pressed on an elastic bar by a lobed casing is linear: Lewis (Trans. ASME 54, 1932) with Fresnel integrals.
-
-    Each harmonic of the casing forces it with exp(i m (theta_0 + Omega t + a t^2/2)); the motion is the steady one at the first
-    speed and Duhamel's integral, which the Faddeeva function has in closed form.
-    """
-    frequency, ratio, start, rate, revolutions, per_revolution = 4000.0, 0.004, 1900.0, 1500.0, 60.0, 62
+def test_a_swept_oscillator_follows_its_equation(monkeypatch):
+    """A mode always pressed on an elastic bar by a lobed casing is linear: against DOP853 on its equation, from rest on, which is forgotten."""
+    frequency, ratio, start, rate, before, revolutions, per_revolution = 4000.0, 0.004, 1900.0, 1500.0, 150, 60.0, 62
     casing = Casing(1e-5, lobes=2, width=1.0, amplitude=20.0, rise_fraction=0.0)
     lining = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=4e-14)
     bar, model = lining.elastic_modulus * lining.bar_area / lining.thickness, with_static_modes(oscillator(frequency), 1e-9)
-    natural = np.sqrt(frequency**2 + bar)
-    run_up = RunUp(start, float(np.sqrt(start**2 + 4.0 * np.pi * rate * revolutions)), revolutions, 250, 0, worn=False)
+    run_up = RunUp(start, float(np.sqrt(start**2 + 4.0 * np.pi * rate * revolutions)), revolutions, before, 0, worn=False)
+
+    def motion(time, state):
+        angle = start * time + 0.5 * rate * max(time, 0.0) ** 2
+        wall = casing.clearance * (1.0 - casing.amplitude * casing.shape(model.theta - angle).item())
+        return state[1], bar * wall - 2.0 * ratio * frequency * state[1] - (frequency**2 + bar) * state[0]
+
     angle = 2.0 * np.pi * np.arange(1, revolutions * per_revolution + 1) / per_revolution
     time = (np.sqrt(start**2 + 2.0 * rate * angle) - start) / rate
-    exact = swept_motion(casing, model.theta[0], bar, natural, ratio * frequency / natural, start, rate, time)
+    ends = -2.0 * np.pi * before / start, time[-1]
+    exact = solve_ivp(motion, ends, (0.0, 0.0), "DOP853", time, rtol=1e-8, atol=1e-18).y[0]
     level = np.abs(exact - exact.mean())
     # the peak comes after the resonance, at 2010 rad/s, and the motion beats
     assert 2040.0 < start + rate * time[np.argmax(level)] < 2060.0
@@ -247,7 +182,7 @@ def test_a_swept_oscillator_follows_the_closed_form(monkeypatch):
         monkeypatch.setattr(schedule_module, "LARGEST_LEAD", lead)
         choice = replace(LONG, time_step=step, samples_per_revolution=per_revolution, static_above=10.0)
         integration = RunUpIntegration(model, Scene(casing, lining, damping_ratio=ratio), choice, run_up)
-        found = samples_of(integration)[250 * per_revolution :, 0]
+        found = samples_of(integration)[before * per_revolution :, 0]
         assert integration.state.totals["steps_in_contact"] > 0.9999 * integration.state.totals["steps"]
         errors[lead, step] = np.abs(found - exact).max() / level.max()
     coarse, fine, shipped = errors.values()
@@ -255,43 +190,6 @@ def test_a_swept_oscillator_follows_the_closed_form(monkeypatch):
     # two steps against six in a sample
     assert fine < 0.15 * coarse
     assert shipped < 6e-4
-
-
-def swept_motion(casing, theta, bar, natural, damping, start, rate, time):
-    """Displacement (m) at times (s) after the change of the speed begins; the angle falls with time, from theta."""
-    period = 2.0 * np.pi / casing.lobes
-    angles = np.arange(4096) * period / 4096
-    fourier = np.fft.fft(casing.clearance * (1.0 - casing.amplitude * casing.shape(angles))) / 4096
-    damped = natural * np.sqrt(1.0 - damping**2)
-    found = np.full(len(time), bar * fourier[0].real / natural**2, dtype=complex)
-    for harmonic in range(1, 8):
-        order, amplitude = harmonic * casing.lobes, 2.0 * fourier[harmonic] * bar
-        # Re(amplitude exp(i order (theta - Omega t - a t^2/2)))
-        force = amplitude * np.exp(1j * order * theta)
-        steady = force / (natural**2 - (order * start) ** 2 - 2j * damping * natural * order * start)
-        decay, swing = np.exp(-damping * natural * time), damped * time
-        velocity = -1j * order * start * steady
-        free = steady.real * np.cos(swing) + (velocity.real + damping * natural * steady.real) / damped * np.sin(swing)
-        found += decay * free
-        for sign in (1.0, -1.0):
-            root = -damping * natural + sign * 1j * damped
-            swept = _integral(-root - 1j * order * start, order * rate, time)
-            found += (force / (2j * sign * damped) * np.exp(root * time) * swept).real
-    return found.real
-
-
-def _integral(slope, curvature, time):
-    """Integral of exp(slope t - i curvature t^2/2) from 0 to the times, by the error function of a complex number."""
-    root = np.sqrt(0.5j * curvature)
-
-    def primitive(t):
-        # exp(slope t - root^2 t^2) erfc(z) exp(z^2) with z = root t - slope/(2 root), but for the sign of its real part
-        z = root * t - slope / (2.0 * root)
-        left = z.real < 0.0
-        scaled = wofz(1j * np.where(left, -z, z)) * np.exp(slope * t - root**2 * t**2)
-        return np.where(left, 2.0 * np.exp(slope**2 / (4.0 * root**2)) - scaled, scaled)
-
-    return np.sqrt(np.pi) / (2.0 * root) * (primitive(np.zeros(1)) - primitive(time))
 
 
 def recorded(model, scene, choice, run_up, results=("spectrum", "wear", "energy")):
@@ -363,7 +261,7 @@ def test_a_blade_that_buckles_on_the_way_is_refused_at_once(contact):
 
 def test_a_slow_change_has_few_segments_in_memory_at_once():
     intervals = schedule(RunUp(1600.0, 1600.001, 100_000.0, 1, 0, worn=False), 62, 1e-7)
-    assert max(len(interval.segments) for interval in intervals) <= 500
+    assert max(len(interval.samples) for interval in intervals) <= 500
 
 
 @pytest.mark.parametrize(
@@ -477,91 +375,33 @@ def test_runs_that_differ_in_more_than_their_rate_are_told_apart_and_constant_sp
     assert list(rate_table(runs)["lowest_safe_rate_rad_s2"].fillna(-1.0)) == [100.0, -1.0]
 
 
-def test_the_highest_speed_of_the_model_is_allowed():
-    check_highest(2000.0, 2000.0)
-    with pytest.raises(RunUpError, match=r"found 2000\.\d+ rad/s|found 2000 rad/s"):
-        check_highest(np.nextafter(2000.0, 3000.0), 2000.0)
-
-
-def run_of(stress, *, start=900.0, stop=1000.0, before=2, **more):
-    """A dataset of one run-up of blade Ref, whose revolutions have this stress (shares of yield); the first two come before."""
-    count = len(stress)
-    speed = np.linspace(start, stop, count)
-    rms = np.ones((count, 2)) * np.arange(count)[:, None]
-    of_run = {"start_speed": start, "stop_speed": stop, "rate": 10.0, "worn": 0, "revolutions_before": before}
-    of_run |= {"revolutions_after": 0, "status": 0, "casing_hits": 0, "yield_stress": 1e9} | more
-    names = {name: ("run", [label]) for name, label in (("blade", "Ref"), ("scene", "direct"), ("run_up", "a"))}
-    return xr.Dataset(
-        {name: ("run", [value]) for name, value in of_run.items()}
-        | {
-            "speed": (("run", "revolution"), speed[None]),
-            "rms_normal": (("run", "revolution", "tip_point"), rms[None]),
-            "rms_tangential": (("run", "revolution", "tip_point"), rms[None]),
-            "max_von_mises": (("run", "revolution"), 1e9 * np.array(stress)[None]),
-        },
-        names | {"revolution": np.arange(1, count + 1), "tip_point": ["leading_edge", "trailing_edge"]},
-    )
-
-
-def test_a_run_has_its_labels_its_revolutions_after_those_before_and_its_last_stress():
+def test_a_run_has_its_labels_its_revolutions_after_those_before_and_its_last_stress(contact, tmp_path):
     """One speed is no run-down."""
-    dataset = run_of([0.1, 0.2, 0.3, 0.4])
-    (run,) = runs_of(dataset, blade="Ref", scene="direct")
-    np.testing.assert_array_equal(run["revolution"], [3, 4])
-    assert runs_of(dataset, blade="L50") == [] and runs_of(dataset, blade="Ref", scene="abradable") == []
-    (row,) = run_up_table(run_of([9.0, 9.0, 0.5, 1.5, 0.25])).to_dict("records")
-    assert (row["last_von_mises_pa"], row["largest_stress_pa"], row["direction"]) == (0.25e9, 1.5e9, "up")
-    assert run_up_table(run_of([0.1, 0.2, 0.3], stop=900.0))["direction"].item() == "up"
-    assert run_up_table(run_of([0.1, 0.2, 0.3], stop=800.0))["direction"].item() == "down"
+    found = recorded(contact, NARROW, LONG, RunUp(1500.0, 1600.0, 1.0, 2, 2, worn=False))
+    dataset = written(found | {"max_von_mises": 1e9 * np.array([9.0, 9.0, 0.5, 1.5, 0.25])}, tmp_path)
+    (run,) = runs_of(dataset, blade="Ref", scene="abradable")
+    np.testing.assert_array_equal(run["revolution"], [3, 4, 5])
+    assert runs_of(dataset, blade="L50") == [] and runs_of(dataset, blade="Ref", scene="direct") == []
+    for stop, direction in ((1600.0, "up"), (1500.0, "up"), (1400.0, "down")):
+        (row,) = run_up_table(dataset.assign(stop_speed=("run", [stop]))).to_dict("records")
+        assert (row["last_von_mises_pa"], row["largest_stress_pa"], row["direction"]) == (0.25e9, 1.5e9, direction)
 
 
-class _Stress:
-    """Of a node that has the coordinate itself as its stress; counts how often it is asked."""
-
-    def __init__(self):
-        self.asked = []
-
-    def max_von_mises(self, coordinates):
-        self.asked.append(len(coordinates))
-        return np.abs(coordinates[:, 0])
-
-
-def test_instants_that_may_have_the_largest_stress_are_all_looked_at(monkeypatch):
-    """In lots, of which there are several here; the bound of another instant may be the largest."""
-    monkeypatch.setattr(revolutions_module, "_INSTANTS_AT_ONCE", 3)
-    rng = np.random.default_rng(5)
-    coordinates = rng.uniform(0.5, 1.0, size=(4, 6, 1))
-    bound = coordinates[..., 0] + rng.uniform(0.3, 0.6, size=(4, 6))
-    stress = _Stress()
-    np.testing.assert_array_equal(largest_stress(stress, coordinates, bound), coordinates[..., 0].max(axis=1))
-    assert max(stress.asked[1:]) == 3
-    assert largest_stress(stress, np.empty((0, 6, 1)), np.empty((0, 6))).shape == (0,)
-
-
-def test_revolutions_last_as_long_as_their_samples(contact):
-    """Time, speed and the orders of both motions of a stage of one speed."""
-    per_revolution = LONG.samples_per_revolution
-    angle = 2.0 * np.pi * np.arange(2 * per_revolution) / per_revolution
-    samples = np.zeros((2 * per_revolution, 2, 3))
-    samples[:, 0, revolutions_module.KEPT[0]] = 1.0 + 3.0 * np.cos(4.0 * angle)
-    samples[:, 0, revolutions_module.KEPT[1]] = 2.0 * np.cos(5.0 * angle)
-    speeds, wear = np.full(len(samples), 100.0), np.zeros(len(samples))
-    collected = revolutions_module._Revolutions(contact, LONG, 5, None, False)
-    nothing = np.empty((0, 1)), np.empty(0), np.empty((1, 1)), False
-    collected.add(IntegratedSegments(speeds, samples.reshape(len(samples), -1), wear, *nothing))
-    values = collected.joined()
-    np.testing.assert_allclose(values["speed"], 100.0)
-    np.testing.assert_allclose(values["time"], [2.0 * np.pi / 100.0, 4.0 * np.pi / 100.0])
-    assert values["amplitude"].shape == values["amplitude_tangential"].shape == (2, 6)
-    np.testing.assert_allclose(values["amplitude"][0], [1.0, 0, 0, 0, 3.0, 0], atol=1e-6)
-    np.testing.assert_allclose(values["amplitude_tangential"][0], [0, 0, 0, 0, 0, 2.0], atol=1e-6)
+def test_numbers_of_a_revolution_are_those_of_its_samples(contact):
+    run_up = RunUp(1600.0, 1600.0, 2.0, 4, 0, worn=False)
+    edge = samples_of(RunUpIntegration(contact, NARROW, LONG, run_up)).reshape(6, 62, 2, 3)[:, :, 0]
+    found = recorded(contact, NARROW, LONG, run_up)
+    np.testing.assert_allclose(found["speed"], 1600.0)
+    np.testing.assert_allclose(found["time"], 2.0 * np.pi / 1600.0 * np.arange(1, 7))
+    for name, direction in zip(("amplitude", "amplitude_tangential"), revolutions_module.KEPT, strict=True):
+        orders = np.abs(np.fft.rfft(edge[..., direction], axis=1)) / 31
+        np.testing.assert_allclose(found[name][:, 1:], orders[:, 1:9], rtol=1e-5, atol=1e-12)
 
 
 def test_no_segment_leads_its_mean_speed_by_more_than_allowed():
     """And the longest come close to it: with many samples a revolution rounding to whole ones is small."""
     per_revolution, turns = 65536, 20.0
     rate = (1000.0**2 - 900.0**2) / (4.0 * np.pi * turns)
-    segments = segments_of(schedule(RunUp(900.0, 1000.0, turns, 0, 0, worn=False), per_revolution, 0.0))
-    lasting = np.array([2.0 * np.pi * segment.samples / per_revolution / segment.speed for segment in segments])
-    lead = rate * lasting.max() ** 2 / 8.0
+    speeds, samples = segments_of(schedule(RunUp(900.0, 1000.0, turns, 0, 0, worn=False), per_revolution, 0.0))
+    lead = rate * (2.0 * np.pi * samples / per_revolution / speeds).max() ** 2 / 8.0
     assert 0.95 * schedule_module.LARGEST_LEAD < lead < 1.02 * schedule_module.LARGEST_LEAD

@@ -70,18 +70,14 @@ def swept(contact, tmp_path_factory):
 
 
 def test_the_motion_from_rest_is_the_run_of_the_pipeline(contact, tmp_path):
-    files = sweep_of(contact, REST).run(tmp_path)
+    """One that is at hand is not made again."""
+    files = sweep_of(contact, REST).run(tmp_path / "once")
     expected = run_speed(contact, 1310.0, GROWING, CHOICE, (), **KEPT)
     numbers = read_speed(files[1])
     np.testing.assert_equal({name: numbers[name] for name in expected}, expected)
-
-
-def test_a_run_from_rest_that_is_at_hand_is_not_made_again(contact, tmp_path):
-    once = sweep_of(contact, REST).run(tmp_path / "once")
-    finished = {float(read_speed(file)["speed"]): file for file in once[1:]}
+    finished = {float(read_speed(file)["speed"]): file for file in files[1:]}
     again = sweep_of(contact, REST).run(tmp_path / "again", finished=finished)
-    assert again[1:] == once[1:] and len(list((tmp_path / "again").glob("*.npz"))) == 1
-    np.testing.assert_equal(read_speed(again[0]), read_speed(once[0]))
+    assert again[1:] == files[1:] and len(list((tmp_path / "again").glob("*.npz"))) == 1
 
 
 @pytest.mark.parametrize(
@@ -95,11 +91,6 @@ def test_runs_of_the_pipeline_are_those_from_rest(root, motion, changes, speeds)
     asked = SimpleNamespace(blade="Ref", scene="abradable", motion=motion)
     assert [Path(file).stem for file in finished_runs(sweep, asked)] == [f"speed_{speed}" for speed in speeds]
     assert (results(sweep, asked) == [each for each in sweep.results(asked) if each in OF_RUNS]) == (motion == REST)
-
-
-def test_without_sweeps_no_run_is_at_hand(root):
-    sweep = Sweep(read_settings(root, command_line_document({})))
-    assert finished_runs(sweep, SimpleNamespace(blade="Ref", scene="abradable", motion=REST)) == []
 
 
 def test_a_sweep_begins_as_a_run_from_rest_that_goes_on(contact, tmp_path):
@@ -204,7 +195,7 @@ def levels(mean, scatter=0.0, clearance=0.0):
     mean = np.array(mean, dtype=float)
     scatter = np.broadcast_to(np.asarray(scatter, dtype=float), mean.shape)
     speeds = 100.0 + 5.0 * np.arange(mean.shape[1])
-    return MotionLevels(speeds, mean, scatter, (0, 1, 2), motions_differ(mean, scatter, clearance))
+    return MotionLevels(speeds, mean, scatter, np.arange(3), motions_differ(mean, scatter, clearance))
 
 
 def test_motions_differ_by_more_than_they_scatter():
@@ -218,8 +209,16 @@ def test_motions_differ_by_more_than_they_scatter():
     several = levels([[np.inf, 1.0], [0.1, 1.0], [0.1, 1.0]], clearance=0.5)
     assert several.differ.tolist() == [True, False]
     assert (several.high[0], several.low[0], several.worst(slice(0, 1))) == (0, 1, 0)
-    rms = {UP: [[1.0, 1.0]], DOWN: [[1.0, 1.0]], REST: [[9.0, 9.0]]}
-    new, worn = (MotionLevels.averaged([100.0], rms, 0.0, worn=worn) for worn in (False, True))
+    of_motion = {"speeds": np.array([100.0]), "clearance": 0.0}
+    new, worn = (
+        levels_of(
+            {
+                motion: SimpleNamespace(rms=[2 * [rms]], worn=worn, **of_motion)
+                for motion, rms in zip(MOTIONS, (1, 1, 9.0), strict=True)
+            }
+        )
+        for worn in (False, True)
+    )
     assert (new.differ.tolist(), worn.differ.tolist()) == ([True], [False])
     assert (MOTIONS[new.high[0]], MOTIONS[worn.high[0]]) == (REST, UP)
 
@@ -247,50 +246,44 @@ def switching(*parts):
     return np.concatenate([np.full(length, level) for length, level in parts])
 
 
-def verdict_of(high, low, *random, lined=False):
-    return judged({HIGH: high, LOW: low, RANDOM: list(random)}, 4.0, 1.0, lined=lined)
+HELD, QUIET, FALLS, RISES = (
+    switching(*parts) for parts in ([(500, 4.0)], [(500, 1.0)], [(300, 4.0), (200, 1.0)], [(300, 1.0), (200, 4.0)])
+)
+LASTS, SWITCHES, PASSES, GONE = Lasting.LASTING, Lasting.SWITCHING, Lasting.TRANSIENT, Lasting.DIVERGED
+LOST = np.where(np.arange(500) < 200, 4.0, np.nan)
 
 
-def test_motions_last_switch_or_are_transients():
-    high, low = switching((500, 4.0)), switching((500, 1.0))
-    verdict = verdict_of([high], [low], high, low)
-    assert (verdict["high"], verdict["low"]) == (Lasting.LASTING, Lasting.LASTING)
-    assert np.isnan(verdict["share_of_time_high"])
-    assert verdict["random_starts_high"] == 0.5
-    falls = switching((300, 4.0), (200, 1.0))
-    verdict = verdict_of([falls], [low])
-    assert (verdict["high"], verdict["low"], verdict["share_of_time_high"]) == (Lasting.TRANSIENT, Lasting.LASTING, 0.0)
-    assert verdict["high_revolutions"] == pytest.approx(300 - 70, abs=20)
-    rises = switching((250, 1.0), (250, 4.0))
-    verdict = verdict_of([falls], [rises])
-    assert (verdict["high"], verdict["low"]) == (Lasting.SWITCHING, Lasting.SWITCHING)
-    assert 0.4 < verdict["share_of_time_high"] < 0.6
-    # gone before it was looked at
-    verdict = verdict_of([low], [low])
-    assert verdict["high"] is Lasting.TRANSIENT
-    assert verdict["high_revolutions"] == 0.0
+@pytest.mark.parametrize(
+    ("high", "low", "random", "fates", "share", "held", "random_high"),
+    [
+        ([HELD], [QUIET], [HELD, QUIET], (LASTS, LASTS), np.nan, np.inf, 0.5),
+        ([FALLS], [QUIET], [], (PASSES, LASTS), 0.0, 230, np.nan),
+        ([FALLS], [RISES], [], (SWITCHES, SWITCHES), 0.5, 430, np.nan),
+        # gone before it was looked at
+        ([QUIET], [QUIET], [], (PASSES, LASTS), 0.0, 0.0, np.nan),
+        # random starts count from their first change, a second one is the blade's own
+        ([HELD], [QUIET], [FALLS, RISES], (LASTS, LASTS), np.nan, np.inf, 0.5),
+        ([HELD], [QUIET], [switching((150, 1.0), (150, 4.0), (200, 1.0))], (PASSES, LASTS), 0.0, 580, 0.0),
+        # diverged
+        ([LOST], [QUIET], [], (GONE, LASTS), np.nan, np.inf, np.nan),
+        ([np.full(500, np.nan)], [QUIET], [], (GONE, LASTS), np.nan, np.nan, np.nan),
+        ([], [QUIET], [], (GONE, LASTS), np.nan, np.nan, np.nan),
+        ([HELD], [LOST], [], (LASTS, GONE), np.nan, np.inf, np.nan),
+    ],
+)
+def test_motions_last_switch_or_are_transients(high, low, random, fates, share, held, random_high):
+    verdict = judged({HIGH: high, LOW: low, RANDOM: random}, 4.0, 1.0, lined=False)
+    assert (verdict["high"], verdict["low"]) == fates
+    numbers = [verdict[name] for name in ("share_of_time_high", "random_starts_high")]
+    assert numbers == pytest.approx([share, random_high], abs=0.1, nan_ok=True)
+    assert verdict["high_revolutions"] == pytest.approx(held, abs=20, nan_ok=True)
 
 
-def test_random_starts_dwells_that_diverge_and_linings_are_judged_apart():
-    """Random starts count from their first change; on a lining a motion lasts that is held at the end."""
-    high, low, falls = switching((500, 4.0)), switching((500, 1.0)), switching((200, 4.0), (300, 1.0))
-    verdict = verdict_of([high], [low], falls, switching((200, 1.0), (300, 4.0)))
-    assert (verdict["high"], verdict["low"], verdict["random_starts_high"]) == (Lasting.LASTING, Lasting.LASTING, 0.5)
-    # a second change is the blade's own
-    verdict = verdict_of([high], [low], switching((150, 1.0), (150, 4.0), (200, 1.0)))
-    assert (verdict["high"], verdict["low"]) == (Lasting.TRANSIENT, Lasting.LASTING)
-    diverged = np.where(np.arange(500) < 200, 4.0, np.nan)
-    assert verdict_of([diverged], [low])["high"] is Lasting.DIVERGED
-    assert verdict_of([np.full(500, np.nan)], [low])["high"] is Lasting.DIVERGED
-    verdict = verdict_of([], [low])
-    assert (verdict["high"], verdict["low"]) == (Lasting.DIVERGED, Lasting.LASTING)
-    assert np.isnan(verdict_of([high], [diverged])["share_of_time_high"])
-    falls, rises = switching((300, 4.0), (200, 1.0)), switching((300, 1.0), (200, 4.0))
-    verdict = verdict_of([falls], [rises], high, lined=True)
-    assert (verdict["high"], verdict["low"]) == (Lasting.TRANSIENT, Lasting.TRANSIENT)
-    assert np.isnan(verdict["share_of_time_high"])
-    assert verdict["high_revolutions"] == pytest.approx(300 - 70, abs=20)
-    assert verdict_of([high], [low], falls, lined=True)["high"] is Lasting.LASTING
+def test_on_a_lining_a_motion_lasts_that_is_held_at_the_end():
+    for high, fates, held in ((FALLS, (PASSES, PASSES), 230), (HELD, (LASTS, PASSES), np.inf)):
+        verdict = judged({HIGH: [high], LOW: [RISES], RANDOM: [HELD, FALLS]}, 4.0, 1.0, lined=True)
+        assert (verdict["high"], verdict["low"]) == fates and np.isnan(verdict["share_of_time_high"])
+        assert verdict["high_revolutions"] == pytest.approx(held, abs=20)
 
 
 def test_random_states_are_outside_of_the_casing(contact):
@@ -373,7 +366,7 @@ def test_the_worst_motion_stands_in_the_ranking(motions_file):
     assert table["carried_revolutions"].tolist() == pytest.approx([100.0, np.nan], nan_ok=True)
 
 
-def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions_file):
+def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions, motions_file):
     summary = pd.DataFrame({"blade": "Ref", "scene": "direct", "peak_speed_rad_s": [500.0, 990.0, 1100.0]})
     table = summary_with_motions(summary, motions_file)
     assert table["second_motion"].tolist() == ["", "up", ""]
@@ -382,6 +375,10 @@ def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions
     assert table.loc[1, "second_motion_rest_rms_normal_m"] == pytest.approx(0.2e-3)
     far = summary_with_motions(summary.assign(peak_speed_rad_s=[500.0, 700.0, 1400.0]), motions_file)
     assert set(far["second_motion"]) == {""}
+    # one that diverges is above all
+    motions["motion_mean"].loc[{"blade": "Ref", "motion": UP, "speed": 1005.0}] = np.nan
+    motions.to_netcdf(motions_file)
+    assert summary_with_motions(summary, motions_file).loc[1, "second_motion_speed_rad_s"] == 1005.0
 
 
 def dwells(*rows, revolutions=300):
@@ -440,17 +437,8 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
         },
         {"scene": ["direct"], "speed": motions["speed"].values, "tip_point": ["leading_edge"]},
     )
-    shaded = draw_response("Ref", None, rms, None, motions.sel(blade="Ref"))
-    plain = draw_response("S100", None, rms, None, motions.sel(blade="S100"))
-    assert (len(shaded.axes[0].patches), len(plain.axes[0].patches)) == (3, 0)
-
-
-def test_a_motion_that_diverges_is_the_second_motion(motions, tmp_path):
-    motions["motion_mean"].loc[{"blade": "Ref", "motion": UP, "speed": 1005.0}] = np.nan
-    motions.to_netcdf(tmp_path / "second_motions.nc")
-    summary = pd.DataFrame({"blade": ["Ref"], "scene": "direct", "peak_speed_rad_s": [1000.0]})
-    table = summary_with_motions(summary, tmp_path / "second_motions.nc")
-    assert table.loc[0, ["second_motion", "second_motion_speed_rad_s"]].tolist() == ["up", 1005.0]
+    for blade, shaded in (("Ref", 3), ("S100", 0)):
+        assert len(draw_response(blade, None, rms, None, motions.sel(blade=blade)).axes[0].patches) == shaded
 
 
 def test_the_last_line_names_no_motion_without_one_from_rest(tmp_path):
@@ -467,24 +455,14 @@ def test_the_last_line_names_no_motion_without_one_from_rest(tmp_path):
     assert closing(tmp_path) == f"1 range of hysteresis; {where}"
 
 
-def test_dwells_of_real_sweeps(contact, swept):
-    _, states = swept
-    assert levels_of(states).mean.shape == (3, 3)
-    carried = sweep_of(contact, UP)
-    rows = dwells_of(carried, states, DwellChoice(revolutions=100, range_speeds=1, starts=1, speeds=(1310.0,)))
-    assert {row["start"] for row in rows} == {HIGH, LOW, RANDOM}
-    assert dwell_dataset(rows, 100).sizes == {"dwell": len(rows), "revolution": 100}
-    # judged by the motions of a range that is near, if there is one
-    differ = levels_of(states).differ.any()
-    assert all(np.isfinite(row["level_high"]) == differ for row in rows)
-
-
 def test_a_dwell_begins_in_the_motion_that_it_is_named_after(contact, swept):
     """The largest at that speed or the smallest, each with its level."""
     _, states = swept
     found, place = levels_of(states), 1
     choice = DwellChoice(revolutions=100, range_speeds=0, starts=0, speeds=(float(found.speeds[place]),))
     high, low = dwells_of(sweep_of(contact, UP), states, choice)
+    # judged by the motions of a range that is near, if there is one
+    assert all(np.isfinite(row["level_high"]) == found.differ.any() for row in (high, low))
     size = {row["start"]: found.mean[MOTIONS.index(row["motion"]), place] for row in (high, low)}
     assert size == {HIGH: found.mean[:, place].max(), LOW: found.mean[:, place].min()} and size[HIGH] > size[LOW]
     for row in (high, low):
