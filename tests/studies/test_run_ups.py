@@ -158,7 +158,10 @@ def test_free_motion_is_that_of_the_whole_stiffness_at_every_speed(monkeypatch):
 
 
 def test_a_swept_oscillator_follows_its_equation(monkeypatch):
-    """A mode always pressed on an elastic bar by a lobed casing is linear: against DOP853 on its equation, from rest on, which is forgotten."""
+    """A mode always pressed on an elastic bar by a lobed casing is linear: against DOP853 on its equation.
+
+    Both start from rest, which is forgotten before the speed changes.
+    """
     frequency, ratio, start, rate, before, revolutions, per_revolution = 4000.0, 0.004, 1900.0, 1500.0, 150, 60.0, 62
     casing = Casing(1e-5, lobes=2, width=1.0, amplitude=20.0, rise_fraction=0.0)
     lining = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=4e-14)
