@@ -1,5 +1,7 @@
 """Contact length and moduli of a lining from the forces of a rub rig."""
 
+from dataclasses import replace
+
 import contact_laws
 import numpy as np
 import pandas as pd
@@ -46,22 +48,10 @@ def test_the_law_of_the_simulation_gives_its_numbers_back():
     assert fit.unknown == () and fit.outliers == ()
     # any other split of the products has the same forces
     keys = r37.lining_from_rub_test(rig, width_m=WIDTH).scene["lining"]
-    assert keys == pytest.approx(
-        {"contact_length_m": 3e-5}
-        | {f"{name}_pa": 10 * TRUE[f"{name}_pa"] for name in ("elastic_modulus", "plastic_modulus", "yield_stress")},
-        rel=1e-6,
-    )
+    split = {"contact_length_m": 3e-5, "elastic_modulus_pa": 2e10, "plastic_modulus_pa": 6e9, "yield_stress_pa": 2e8}
+    assert keys == pytest.approx(split, rel=1e-6)
     scene = r37.scene("material_abradable", **{f"lining.{key}": value for key, value in keys.items()}).entry.scene()
-    split = rig_forces(
-        depths,
-        Lining(
-            2e-3,
-            scene.lining.elastic_modulus,
-            scene.lining.plastic_modulus,
-            scene.lining.yield_stress,
-            contact_length=scene.lining.contact_length,
-        ),
-    )
+    split = rig_forces(depths, replace(scene.lining, thickness=2e-3))
     np.testing.assert_allclose(split, rig_forces(depths, HIDDEN), rtol=1e-6, atol=1e-9)
 
 
@@ -121,30 +111,17 @@ def test_speeds_that_disagree_are_told(power, told):
     assert any(text.startswith("speed: forces have a further power 0.") for text in unknown) == told
 
 
-def test_many_points_are_fitted():
-    depths = np.linspace(1e-6, 2e-4, 100_000)
-    fit = fit_lining(
-        points(depths, rig_forces(depths, HIDDEN) * (1.0 + 0.05 * np.random.default_rng(0).standard_normal(100_000))),
-        SHIPPED,
-        3e-4,
-    )
-    assert fit.values["elastic_modulus_pa"].best == pytest.approx(2e9, rel=5e-3)
-
-
 def test_a_table_has_the_separator_of_its_header(tmp_path):
     (tmp_path / "rig.csv").write_text("Depth (\u00b5m); Force [kN]\n100; .04\n200;.081\n")
-    fits = [
-        r37.lining_from_rub_test(table, **RIG)
-        for table in (tmp_path / "rig.csv", {"depth_mm": [0.1, 0.2], "force_n": [40, 81]})
-    ]
-    assert fits[0].contact_length.best == pytest.approx(fits[1].contact_length.best, rel=1e-9)
+    tables = (tmp_path / "rig.csv", {"depth_mm": [0.1, 0.2], "force_n": [40, 81]})
+    of_file, of_columns = (r37.lining_from_rub_test(table, **RIG).contact_length.best for table in tables)
+    assert of_file == pytest.approx(of_columns, rel=1e-9)
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         ("", "No columns to parse.*; allowed: a CSV with a header"),
-        ("depth_mm,force_n\n.1,3\n.2,4,5", "Expected 2 fields in line 3, saw 3; allowed: a CSV with a header"),
         ("depth_mm,force_n\n0,1,3,4\n0,2,5,6", "more cells than the header; allowed: as many, and decimal points"),
         (
             "depth_mm,force_lbf\n.1,3\n.2,5",
@@ -181,10 +158,13 @@ def test_arguments_that_fit_nothing_are_refused(arguments, message):
 
 def test_the_contact_length_of_a_rub_test_is_what_is_known_before(tmp_path):
     depths = np.linspace(20.0, 200.0, 10)
-    rows = "".join(
-        f"{depth:.1f},{0.4 * depth * (1.0 + 0.01 * (-1) ** number):.4f},10,2\n" for number, depth in enumerate(depths)
-    )
-    (tmp_path / "rig.csv").write_text(f"depth_um,force_n,width_mm,thickness_mm\n{rows}")
+    rig = {
+        "depth_um": depths,
+        "force_n": 0.4 * depths * (1.0 + 0.01 * (-1.0) ** np.arange(10)),
+        "width_mm": 10,
+        "thickness_mm": 2,
+    }
+    pd.DataFrame(rig).to_csv(tmp_path / "rig.csv", index=False)
     entry = {"scene": "material_abradable"}
     settings = configured(tmp_path, [entry], calibrate={"rub_test": str(tmp_path / "rig.csv")})
     ((number, spread),) = settings.made(Calibrated).spreads.items()

@@ -77,16 +77,12 @@ def test_numbers_of_which_only_the_product_counts_are_told_together():
 
 
 @pytest.mark.slow
-def test_a_number_that_changes_nothing_is_not_told():
-    dataset, _ = calibrated(lambda length, friction: peak(length, 0.2), peak(1e-3, 0.2))
-    assert notes(dataset, FRICTION.name) == ["not identifiable by these measurements"]
-
-
-@pytest.mark.slow
 def test_a_point_on_another_branch_is_named_and_moves_nothing():
+    """And a number that changes nothing is not told."""
     measured = peak(1e-3, 0.2)
     measured[2] *= 4.0
-    dataset, _ = calibrated(peak, measured)
+    dataset, _ = calibrated(lambda length, friction: peak(length, 0.2), measured)
+    assert notes(dataset, FRICTION.name) == ["not identifiable by these measurements"]
     assert np.flatnonzero(dataset["elsewhere"] > 0.5).tolist() == [2]
     row = number_table(dataset).set_index("number").loc[LENGTH.name]
     assert row["low_95"] < 1e-3 < row["high_95"]

@@ -10,7 +10,7 @@ from conftest import CONFIGURATION
 from r37core.config import ConfigError, Document
 from r37core.product.extensions import load_settings
 from r37core.stress.gauge import Gauge
-from r37studies.agreement import agreeing, disagreements, disagrees, groups, words
+from r37studies.agreement import disagreements, disagrees, groups, words
 from r37studies.measured.comparison import compared
 from r37studies.measured.file import MOST_SPEEDS, read_points
 from r37studies.measured.measurement_plan import Measured
@@ -42,15 +42,13 @@ def read(tmp_path):
     [
         ("speed_rad_s,amplitude_m", 1000.0, 2e-3),
         ("n (rpm),a (mm)", 1000.0 * np.pi / 30, 2.0),
-        ("n [1/min],a [um]", 1000.0 * np.pi / 30, 2000.0),
         ("rpm,amplitude_\u00b5m", 1000.0 * np.pi / 30, 2000.0),
         ("rotation_hz,tip_mil", 2000.0 * np.pi, 2e-3 / 2.54e-5),
     ],
 )
 def test_a_column_has_the_unit_of_its_name(read, header, speed, value):
     points = read(f"# a test\n{header}\n1000,{value!r}\n")
-    assert points.speeds == pytest.approx((speed,)) and points.values == pytest.approx((2e-3,))
-    assert points.deviations == pytest.approx((1e-4,))
+    assert (*points.speeds, *points.values, *points.deviations) == pytest.approx((speed, 2e-3, 1e-4))
 
 
 def test_rows_without_a_number_are_left_out_and_speeds_ascend(read):
@@ -104,8 +102,6 @@ def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
         ("speed_rad_s,a_m,sigma_m\n1,1,0\n", READING, "above 0, a standard deviation"),
         ("speed_rad_s,a_m\n1,1\n", reading(rows={"blade": "A"}), "no column 'blade'"),
         ("speed_rad_s,a_m,speed_error_rad_s\n1,1,2\n", reading(uncertainty_percent=None), "neither it nor a column"),
-        ("speed_rad_s,a_m\n1,2,3\n", READING, "more cells than the header"),
-        ("", READING, "allowed: a CSV with a header"),
         ("blade,speed_rad_s,a_m\nFan,1,1\n", READING, "found rows of the blade 'Fan'; allowed: those of "),
         ("speed_rad_s,angle_deg,d_m\n1,0,1\n2,0,1\n", WORN, "over angles at 2 speeds"),
         (
@@ -130,13 +126,11 @@ def test_feature_speed_a_limit_lies_anywhere_between_two_speeds(read):
 @pytest.mark.parametrize(
     "values, limit, speed",
     [
-        ([1, 1, 1, 1], 2.0, np.inf),
         ([1, 2, 1, 1], 2.0, np.inf),
         ([3, 1, 1, 1], 2.0, 1.0),
         ([1, np.inf, 1, 1], 2.0, 2.0),
         ([1, 1, 2, 4], 3.0, 3.5),
         ([4, 3, 1, 1], None, 1.0),
-        ([1, 1, 3, 4], None, 4.0),
         ([1, 3, 2, 1, 1], None, 2.0 + 1.0 / 6.0),
         ([1, 3, 3, 1], None, 2.5),
         ([1, 3, np.inf, 1], None, np.inf),
@@ -172,13 +166,7 @@ def test_a_profile_is_turned_to_where_it_fits_and_says_when_it_is_backwards(read
     assert "read backwards" in turned_profile(wear, backwards)[1]
     # clearly better: by more than half, and by more than 9
     middles = tuple((np.arange(4) + 0.5) * np.pi / 2.0)
-    for last, deviation, is_backwards in (
-        (0.0, 0.47, True),
-        (0.0, 0.48, False),
-        (1.0, 0.474, False),
-        (1.3, 0.1, True),
-        (1.5, 0.1, False),
-    ):
+    for last, deviation, is_backwards in ((0.0, 0.47, True), (0.0, 0.48, False), (1.3, 0.1, True), (1.5, 0.1, False)):
         four = Points.collected(1.0, [0.0, 3.0, 1.0, last], deviation, 0, angles=middles)
         profile, remark = turned_profile(np.array([0.0, 1.0, 3.0, 0.0]), four)
         assert profile == pytest.approx([1.0, 3.0, 0.0, 0.0]) and remark.startswith("turned by 90 degrees")
@@ -210,26 +198,20 @@ def test_a_difference_is_in_units_of_both_uncertainties():
     table = comparison([1.3, 2.0, 4.0], error=0.1)
     np.testing.assert_allclose(table["simulated_uncertainty"], [0.13, 0.2, 0.4])
     np.testing.assert_allclose(table["difference_over_uncertainty"], [0.3 / np.hypot(0.1, 0.13), 0.0, 0.0])
-    assert agreeing(table).tolist() == [True, True, True]
     by_chance = comparison([1.3, 2.0, 4.0], scatter=[0.2, 0.0, 0.0])
     assert by_chance["difference_over_uncertainty"][0] == pytest.approx(0.3 / np.hypot(0.1, 0.2))
 
 
 def test_the_error_of_the_level_is_one_of_amplitudes():
     points = Points((1000.0,), (1000.0,), (2.0,), (0,))
-    peak = Measurement(
-        "tip.csv", "A", "s", "displacement_normal", points, speed_of="peak", curve_speeds=(990.0, 1000.0, 1010.0)
-    )
+    peak = Measurement("tip.csv", "A", "s", "displacement_normal", points, speed_of="peak", curve_speeds=(990.0, 1010.0))
     table = compared({"m0": peak}, {"m0": {"values": [1010.0], "scatter": [0.0], "remark": ""}}, {("A", "s"): 0.1})
     assert table["difference_over_uncertainty"].tolist() == [5.0]
 
 
-def test_points_that_agree_by_scatter_alone_are_counted():
-    table = comparison([5.0, 2.0, 4.0], scatter=[3.0, 0.0, 0.0])
-    assert words(table) == "3 of 3 points within 2 sigma, at 1 of them as the simulation scatters by chance"
-
-
 def test_words_say_how_many_points_agree_and_where_others_lie():
+    scattered = words(comparison([5.0, 2.0, 4.0], scatter=[3.0, 0.0, 0.0]))
+    assert scattered == "3 of 3 points within 2 sigma, at 1 of them as the simulation scatters by chance"
     table = comparison([1.0, 4.0, None])
     assert words(table) == "1 of 3 points within 2 sigma; 200 rad/s: simulated 2 times measured; 300 rad/s: diverged"
     assert disagrees(table) and not disagrees(comparison([1.0, 2.0, 4.0]))
@@ -243,15 +225,9 @@ def configured(folder, measured, text="speed_rad_s,a_m\n1000,1e-3\n1100,2e-3\n",
     (folder / "tip.csv").write_text(text)
     shared = {"file": str(folder / "tip.csv"), "blade": "Ref", "scene": "abradable", "quantity": "displacement_normal"}
     entries = [{**shared, "uncertainty_percent": 5, **entry} for entry in measured]
-    scenes = sorted({entry["scene"] for entry in entries} & {"abradable", "direct", "material_abradable", "rotor_abradable"})
-    content = {
-        "blades": ["Ref"],
-        "scenes": scenes or ["abradable"],
-        "speeds": [1000.0],
-        "fidelity": "draft",
-        "measured": entries,
-    }
-    return load_settings(Document("config.yaml", content | more), CONFIGURATION.parent)
+    scenes = sorted({entry["scene"] for entry in entries} - {"nowhere"})
+    content = {"blades": ["Ref"], "scenes": scenes or ["abradable"], "speeds": [1000.0], "fidelity": "draft", **more}
+    return load_settings(Document("config.yaml", content | {"measured": entries}), CONFIGURATION.parent)
 
 
 def test_a_gauge_is_that_of_the_signals(tmp_path):
@@ -271,9 +247,7 @@ REFUSED = [
     ({"quantity": "strain", "gauge": "G1"}, r"found 'G1'; allowed: one of signals.gauges \(none\), or a place"),
     ({"quantity": "strain"}, "strain without gauge; allowed: gauge beside it"),
     ({"probe_deg": 10.0}, "displacement_normal with probe_deg; allowed: probe_deg left out"),
-    ({"statistic": "order"}, "statistic order without engine_order"),
     ({"speed_of": "first_above"}, "first_above without a limit"),
-    ({"value": "?"}, r"measured.0.value: .*the columns are: speed_rad_s \(speed\), a_m \(length\)"),
     ({"file": "/nowhere/tip.csv"}, "measured.0.file: /nowhere/tip.csv: .*allowed: a CSV with a header"),
 ]
 
@@ -309,7 +283,6 @@ FRICTION = {"of_scenes": {"friction.coefficient": {"between": [0.05, 0.3]}}}
     [
         ([], FRICTION, "calibrate: found no measurement; allowed: measured"),
         ([{}], {}, "no number; allowed: some under of_scenes"),
-        ([{}], {"of_scenes": {"frictoin": {"between": [0.05, 0.3]}}}, "frictoin; allowed: .*friction.coefficient"),
         ([{}], {"of_scenes": {"casing.clearance_m": {"between": [-1.0, 1e-3]}}}, "at the end of its range: "),
         ([{}], {**FRICTION, "runs": 16, "first": 12}, r"found 12; allowed: at most half of runs \(16\)"),
         ([{}], {"rub_test": "/nowhere.csv"}, "calibrate.rub_test: found /nowhere.csv; allowed: .*contact_length_m"),

@@ -22,14 +22,14 @@ from r37core.figures import style
 from r37core.product.extensions import read_settings
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.columns import INTERACTIONS, names
-from r37core.results.danger import danger_of, ratio_to_yield
+from r37core.results.danger import danger_of
 from r37core.results.interactions import find_interactions
 from r37core.time_integration.status import RunStatus
 from r37studies.member_values import sobol_points
 from r37studies.tolerances.dataset import tolerances_dataset
 from r37studies.tolerances.figures import draw_tolerances
 from r37studies.tolerances.members import Tolerances
-from r37studies.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
+from r37studies.tolerances.number_ranks import ranking, share_ends
 from r37studies.tolerances.ranges import COLUMNS, ranged_summary
 from r37studies.tolerances.table import ranges
 
@@ -133,9 +133,8 @@ def test_members_have_the_values_of_the_sample(root):
         assert member.values == (member.scene.friction.coefficient, member.scene.lining.elastic_modulus)
         assert 0.1425 < member.values[0] < 0.1575
         assert direct[name].values == (member.values[0], None)
-        assert replace(member.scene, friction=None, lining=None) == replace(
-            settings.scenes["abradable"].scene, friction=None, lining=None
-        )
+        others = [replace(scene, friction=None, lining=None) for scene in (member.scene, settings.scenes["abradable"].scene)]
+        assert others[0] == others[1]
     assert {member.scene.lining.elastic_modulus for member in lined.values()} == {1.0e10, 3.0e10}
 
 
@@ -188,26 +187,28 @@ def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
 
 
 @pytest.mark.parametrize(
-    ("members", "said"),
+    ("members", "spread", "said"),
     [
-        (16, ["16 members do not rank the numbers; 32 name the first, 128 tell most apart"]),
-        (64, ["64 members name the first of the numbers at best; 128 tell most apart"]),
-        (128, []),
+        (
+            16,
+            {"uniform_percent": 5.0},
+            "tolerances: 16 members do not rank the numbers; 32 name the first, 128 tell most apart",
+        ),
+        (64, {"uniform_percent": 5.0}, "tolerances: 64 members name the first of the numbers at best; 128 tell most apart"),
+        (
+            128,
+            {"values": [0.15]},
+            "tolerances.of_scenes: friction.coefficient is 0.15 in all members, so it is not ranked; a wider",
+        ),
     ],
 )
-def test_a_run_says_when_its_members_rank_nothing(root, members, said):
-    numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "damping_ratio": {"uniform_percent": 5.0}}
+def test_a_run_says_which_numbers_its_members_do_not_rank(root, members, spread, said):
+    numbers = {"friction.coefficient": spread, "damping_ratio": {"uniform_percent": 5.0}}
     given = {"members": members, "blades": ["Ref"], "of_scenes": numbers}
-    remarks = [one for one in remarks_of(settings_of(root, given)) if "rank" in one or "name the first" in one]
-    assert len(remarks) == len(said) and all(f"tolerances: {text}" in one for text, one in zip(said, remarks, strict=True))
+    (remark,) = [one for one in remarks_of(settings_of(root, given)) if "rank" in one or "name the first" in one]
+    assert remark.startswith(said)
     alone = {**given, "of_scenes": {"damping_ratio": numbers["damping_ratio"]}}
     assert not any("rank" in one for one in remarks_of(settings_of(root, alone)))
-
-
-def test_a_number_of_one_value_is_told(root):
-    numbers = {"friction.coefficient": {"values": [0.15]}, "damping_ratio": {"uniform_percent": 5}}
-    (said,) = [one for one in remarks_of(settings_of(root, {"members": 2, "of_scenes": numbers})) if "not ranked" in one]
-    assert said.startswith("tolerances.of_scenes: friction.coefficient is 0.15 in all members, so it is not ranked; a wider")
 
 
 @pytest.mark.parametrize(
@@ -215,23 +216,16 @@ def test_a_number_of_one_value_is_told(root):
     [
         ({"members": 12}, "tolerances.members: found 12; allowed: a power of two, such as 8 or 16"),
         ({"of_scenes": {"friction.coeficient": {"uniform": 0.1}}}, "found friction.coeficient; allowed: a number of the"),
-        ({"of_scenes": {"casing.lobes": {"uniform": 1.0}}}, "found casing.lobes; allowed: a number of the scenes"),
         ({"of_scenes": {"friction.coefficient": {}}}, "found nothing; allowed: one of uniform_percent"),
-        ({"of_scenes": {"friction.coefficient": {"uniform": 0.1, "normal": 0.1}}}, "found uniform and normal"),
         ({"of_scenes": {"friction.coefficient": {"between": [0.2, 0.1]}}}, "a lower and a higher number"),
-        ({"of_scenes": {"friction.coefficient": {"values": [0.1, 0.1]}}}, "twice"),
         ({"of_scenes": {"friction.coefficient": {"normal": 0.2}}}, r"member \d+ of Ref in abradable: found -.*at least 0.*na"),
         ({"of_blades": {"thickness": {"uniform": 1.0}}}, "found thickness; allowed: one of material.youngs_modulus_pa"),
         ({"of_blades": {"lean_deg": {"uniform_percent": 1.0}}}, "percent of lean_deg, which is 0"),
         ({"of_blades": {"thickness_percent": {"uniform": 150.0}}}, r"thickness_percent: the end of its range of Ref.*least 10"),
         ({"of_blades": {"stagger_deg.hub": {"uniform": 45.0}}}, "the end of its range of Ref in abradable: span 0%: inlet"),
-        ({"of_blades": {"material.poissons_ratio": {"values": [0.3, 0.5]}}}, r"poissons_ratio: the end of its .*less than 0.5"),
-        ({"of_blades": {"sweep_cm": {"uniform": 50.0}}}, "of_blades.sweep_cm: .*a sweep of .*up to the height of the blade"),
-        ({"of_blades": {"sweep_percent": {"values": [100.0, 1e9]}}, "blades": ["S100"]}, "sweep_percent: .*at most 1000"),
         ({"of_scenes": {"friction.coefficient": {"between": [0.0, 11.0]}}, "members": 2}, "the end of its range.*at most 10"),
         ({"of_scenes": {"divergence_limit_m": {"uniform": 1e-3}}}, "allowed: a number of the scenes"),
         ({"of_blades": {"sweep_percent": {"uniform": 1.0}}, "blades": ["Ref"]}, r"none of its numbers \(sweep_percent\) in"),
-        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["L50"]}, "none of its numbers .* in L50"),
         ({"members": 4}, "tolerances: found no numbers; allowed: some under of_scenes or of_blades"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["Rex"]}, "found 'Rex'"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "members": 4096}, "simulations of members"),
@@ -325,34 +319,23 @@ def dataset_of(folder, members):
 def test_the_dataset_of_members(tmp_path):
     peaks = [1700.0 + 5.0 * row for row in range(20)]
     found = dataset_of(tmp_path, list(map(member, peaks)))
-    assert found.sizes["member"] == 20
     np.testing.assert_allclose(found["speed_rpm"], found["speed"] * 30.0 / np.pi)
     np.testing.assert_array_equal(found["peak_speed"], peaks)
     np.testing.assert_allclose(found["value"].sel(number=NUMBERS[0]), 0.1 + 0.001 * np.array(peaks))
     assert found["value"].sel(number=NUMBERS[1]).isnull().all()
-    shares = np.mean([ratio_to_yield(branch(peak)).values > 1.0 for peak in peaks], axis=0)
-    np.testing.assert_allclose(found["probability_above_yield"], shares)
     assert found["probability_above_yield"].sel(speed=[1600.0, 1750.0, 1795.0]).values.tolist() == [0.0, 0.5, 0.05]
+    ends = [found[f"probability_above_yield_{end}"].sel(speed=1750.0) for end in ("low", "high")]
+    np.testing.assert_allclose(ends, share_ends(np.array(10), 20))
     spread = found["rms_normal"].sel(speed=1700.0).values
     np.testing.assert_allclose(found["rms_normal_quantile"].sel(speed=1700.0), np.sort(spread)[[0, 9, 18]])
-    for row in range(20):
-        alone = branch(peaks[row])
-        expected = danger_of(alone)
-        assert found["length_ever"][row] == expected["length_ever_rad_s"]
-        assert found["largest_stress"][row] == expected["largest_stress_pa"]
+    expected = danger_of(branch(peaks[7]))
+    assert found["length_ever"][7] == expected["length_ever_rad_s"]
+    assert found["largest_stress"][7] == expected["largest_stress_pa"]
 
 
-def test_the_chance_of_passing_yield_has_an_interval(root, tmp_path):
-    """In the dataset, and in words on its page."""
-    found = dataset_of(tmp_path, [member(1700.0 if row % 2 else 1760.0) for row in range(16)])
-    names = ("probability_above_yield_low", "probability_above_yield", "probability_above_yield_high")
-
-    def at(speed):
-        return [round(float(found[name].sel(speed=speed)), 3) for name in names]
-
-    # Clopper and Pearson's of 8 and of 0 of 16
-    assert at(1750.0) == [0.247, 0.5, 0.753]
-    assert at(1600.0) == [0.0, 0.0, 0.206]
+def test_the_chance_of_passing_yield_has_an_interval(root):
+    """Of Clopper and Pearson, also in words on its page."""
+    assert np.round(share_ends(np.array([8, 0]), 16), 3).T.tolist() == [[0.247, 0.753], [0.0, 0.206]]
     none_of_32, none_of_16 = (f"{100 * share_ends(np.array(0), members)[1]:.0f}%" for members in (32, 16))
     page = (root / "docs/tolerances.md").read_text()
     assert f"none of 32 members passes yield, the chance may still be {none_of_32}; with 16 members {none_of_16}" in page
@@ -415,14 +398,13 @@ def test_ranges_of_interactions():
     assert (only["engine_order"], only["share_of_members"]) == (4, 1.0)
 
 
-@pytest.mark.parametrize("blade", ["NA", "inf", "1e5"])
-def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path, blade):
-    """Whatever the blade is called; without a nominal interaction there is nothing beside which they could stand."""
+def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path):
+    """Whatever a blade is called; without a nominal interaction there is nothing beside which they could stand."""
     nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
     rows = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4), (990.0, 0.004, 6))}, InteractionChoice())
-    table = pd.DataFrame([{"blade": blade, "scene": "lined", **row} for row in rows], columns=COLUMNS)
+    table = pd.DataFrame([{"blade": "NA", "scene": "lined", **row} for row in rows], columns=COLUMNS)
     table.to_csv(tmp_path / "tolerances.csv", index=False)
-    summary = pd.DataFrame([{"blade": name, "scene": "lined", **one} for name in (blade, "L50") for one in nominal])
+    summary = pd.DataFrame([{"blade": name, "scene": "lined", **one} for name in ("NA", "L50") for one in nominal])
     joined = ranged_summary(summary.astype({"engine_order": "Int64"}), tmp_path / "tolerances.csv")
     assert len(joined) == len(summary)
     assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
@@ -431,17 +413,11 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path, blade):
     assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
 
 
-@pytest.mark.parametrize("text", ["", "blade,scene\n", "a\0b", "blade,scene,mode,engine_order\nRef,lined,1B,x\n"])
+@pytest.mark.parametrize("text", ["", "blade,scene,mode,engine_order\nRef,lined,1B,x\n"])
 def test_a_damaged_table_is_named(tmp_path, text):
     (tmp_path / "tolerances.csv").write_text(text)
     with pytest.raises(InputFileError, match=r"tolerances\.csv: cannot be read"):
         ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), tmp_path / "tolerances.csv")
-
-
-def test_a_response_that_is_none_is_named(tmp_path):
-    other = sample(tmp_path, [(xr.Dataset({"status": ("speed", [0])}), (0.1, 0.2))], ("other",))
-    with pytest.raises(InputFileError, match=r"other\.nc: cannot be read"):
-        tolerances_dataset([(("Ref", "lined", other[0][1]), other[1])], NUMBERS)
 
 
 def shares_of_members(*given):
@@ -458,11 +434,3 @@ def test_each_nominal_interaction_has_its_share_and_members_go_to_the_nearest():
     low, high = interactions_of((1000.0, 0.01, 3)), interactions_of((1500.0, 0.01, 3))
     assert shares_of_members(low, {"0": high}, wide) == [1.0]
     assert shares_of_members(low, {"0": high}, InteractionChoice(below=0.0, above=0.49)) == [0.0]
-
-
-@pytest.mark.parametrize("chance", [0.02, 0.5, 0.93])
-def test_the_interval_of_a_chance_misses_it_as_seldom_as_said(chance):
-    counts = np.random.default_rng(0).binomial(16, chance, 20000)
-    low, high = share_ends(counts, 16)
-    assert np.mean((low > chance) | (high < chance)) <= 1.0 - CONFIDENCE
-    assert low[counts == 0].sum() == 0.0 and np.all(high[counts == 16] == 1.0)

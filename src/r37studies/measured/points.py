@@ -30,7 +30,8 @@ class Points:
     def collected(cls, *columns: Any, angles: tuple[float, ...] = ()) -> Self:
         """Points of speeds, values, deviations and orders: arrays of shape (points,), or one number that all have."""
         equally_long = np.broadcast_arrays(*map(np.atleast_1d, columns))
-        return cls(*(tuple(part.tolist()) for part in equally_long), angles=angles)
+        speeds, values, deviations, orders = (tuple(part.tolist()) for part in equally_long)
+        return cls(speeds, values, deviations, orders, angles)
 
 
 @dataclass(frozen=True)
