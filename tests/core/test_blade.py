@@ -91,12 +91,6 @@ def test_surfaces_are_tangent_to_the_edge_circles(profiles, side):
             assert np.hypot(along, across) == pytest.approx(edge.radius, rel=1e-8)
 
 
-def test_surfaces_are_smooth_at_the_junction(profiles):
-    for profile in profiles:
-        for surface in profile.surfaces.values():
-            assert surface.front.angle(surface.front_length) == pytest.approx(surface.rear.kappa, abs=1e-12)
-
-
 def test_thickness_is_the_maximum_thickness_where_printed(profiles):
     hub = profiles[0]
     p = hub.parameters

@@ -36,13 +36,6 @@ def test_casing_of_the_benchmark():
     assert Casing(1e-3).rise_time(4.0, 1000) == pytest.approx(0.8)
 
 
-@pytest.mark.parametrize("lobes", [1, 2, 5])
-def test_lobes_repeat(lobes):
-    theta = np.linspace(0.0, 6.0, 50)
-    casing = Casing(1e-3, lobes=lobes)
-    np.testing.assert_allclose(casing.shape(theta), casing.shape(theta - 2 * np.pi / lobes), rtol=1e-9)
-
-
 def test_circular_casing_and_casing_deformed_from_the_start():
     theta = np.linspace(0.0, 6.0, 50)
     np.testing.assert_array_equal(Casing(1e-3, lobes=0).lobe(theta, 5.0, 10.0), 0.0)

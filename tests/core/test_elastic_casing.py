@@ -275,21 +275,18 @@ def test_waves_of_all_scenes_are_in_one_dataset(waves):
 
 
 def test_waves_are_drawn(waves):
-    figure = draw_casing_map(waves.sel(blade="Ref", scene="elastic"), "Ref, elastic")
+    elastic = waves.sel(blade="Ref", scene="elastic")
+    figure = draw_casing_map(elastic, "Ref, elastic")
     titles = [axes.get_title() for axes in figure.axes]
     assert titles[:2] == ["forward: with the rotor", "backward: against the rotor"]
     # one mode at one speed has an extent, too; nodal diameters without a mode stay empty
-    single = waves.sel(blade="Ref", scene="elastic").isel(speed=[0], casing_mode=[5])
+    single = elastic.isel(speed=[0], casing_mode=[5])
     left, right, low, high = draw_casing_map(single, "Ref").axes[0].images[0].get_extent()
     assert right - left == 1.0 and high - low == 1.0
-    gap = draw_casing_map(waves.sel(blade="Ref", scene="elastic").isel(speed=[0], casing_mode=[4, 7]), "Ref")
+    gap = draw_casing_map(elastic.isel(speed=[0], casing_mode=[4, 7]), "Ref")
     assert list(np.ma.getmaskarray(gap.axes[0].images[0].get_array()).ravel()) == [False, True, True, False]
-    untold = waves.sel(blade="Ref", scene="elastic").isel(speed=[0])
-    untold["casing_energy"][:, 3] = untold["casing_rms_forward"][:, 3] = np.nan
-    rows = draw_casing_map(untold, "Ref").axes[0].images[0].get_array()
-    assert list(np.flatnonzero(np.ma.getmaskarray(rows).ravel())) == [2]
-    still = waves.sel(blade="Ref", scene="elastic").isel(speed=[1])
-    assert "every run diverged" in [text.get_text() for text in draw_casing_map(still, "Ref").axes[0].texts]
+    still = draw_casing_map(elastic.isel(speed=[1]), "Ref")
+    assert "every run diverged" in [text.get_text() for text in still.axes[0].texts]
 
 
 @pytest.mark.parametrize(

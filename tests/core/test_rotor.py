@@ -182,10 +182,6 @@ def test_extremes_are_numbers(rotor, scene, tmp_path):
     numbers = run_speed(a_blade(), SPEED, replace(scene, rotor=rotor), choice, ("spectrum", "wear", "energy"), **KEPT)
     assert numbers["status"] == 0
     assert np.isfinite(numbers["blade_rms"]).all() and np.isfinite(numbers["wear"]).all()
-    if rotor.longer[-1] == -0.05:
-        assert numbers["blade_peak"][2] == numbers["blade_worn"][2] == numbers["blade_contact"][2] == 0.0
-    if rotor.longer[-1] == 5e-4:
-        assert numbers["max_wear"] >= 5e-4 - scene.casing.clearance
     write_speed(numbers, tmp_path / "speed.npz", {})
     assert (tmp_path / "speed.npz").stat().st_size < 1_000_000
 

@@ -29,7 +29,7 @@ def write_mesh(mesh: BladeMesh, file: Path | str) -> None:
 
 
 def _vtu(mesh: BladeMesh, file: Path) -> None:
-    marks = {name: np.isin(np.arange(len(mesh.points)), mesh.node_set(name)).astype(np.int8) for name in NODE_SETS}
+    marks = {name: mesh.mask(name).astype(np.int8) for name in NODE_SETS}
     meshio.Mesh(mesh.points, dict(mesh.blocks), point_data=marks).write(file)
 
 
@@ -49,8 +49,7 @@ def _grouped(mesh: BladeMesh) -> tuple[list[tuple[str, np.ndarray]], list[np.nda
     numbers = [GROUPS["blade"]] * len(cells)
     surface = outer_faces(mesh.blocks)
     for name in ("root", "tip"):
-        members = np.isin(np.arange(len(mesh.points)), mesh.node_set(name))
-        within = chosen(surface, mask_within(surface, members))
+        within = chosen(surface, mask_within(surface, mesh.mask(name)))
         faces = [(_FACE_TYPES[part.corners, part.quadratic], part.nodes) for part in within]
         cells += faces
         numbers += [GROUPS[name]] * len(faces)

@@ -32,6 +32,10 @@ class BladeMesh:
         """Node numbers of a set, lines of the tip from leading to trailing edge; KeyError for a name not in NODE_SETS."""
         return self.node_sets[name]
 
+    def mask(self, name: str) -> np.ndarray:
+        """Mask over the nodes, shape (nodes,), of those of a set; KeyError as of node_set."""
+        return np.isin(np.arange(len(self.points)), self.node_set(name))
+
     @property
     def free_nodes(self) -> np.ndarray:
         """Numbers of the nodes that are not clamped at the root."""

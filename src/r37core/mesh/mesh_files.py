@@ -46,7 +46,7 @@ def write_vtu(mesh: BladeMesh, file: Path | str, scaled_jacobian: np.ndarray) ->
         grid.point_data[name] = values
     grid.point_data["normal"] = mesh.normals
     for name in NODE_SETS:
-        grid.point_data[name] = np.isin(np.arange(len(mesh.points)), mesh.node_set(name)).astype(np.int8)
+        grid.point_data[name] = mesh.mask(name).astype(np.int8)
     grid.cell_data["scaled_jacobian"] = scaled_jacobian
     grid.field_data["scaled_jacobian_minimum"] = [np.min(scaled_jacobian)]
     grid.field_data["scaled_jacobian_one_percent_quantile"] = [np.quantile(scaled_jacobian, 0.01)]

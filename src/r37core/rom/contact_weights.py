@@ -18,7 +18,7 @@ import scipy.sparse as sp
 from r37core.fem.traces import Trace, chain_trace, edge_traces
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
-from .recovery_nodes import RecoveryNodes
+from .recovery_nodes import RecoveryNodes, cylinder
 from .reduction_choice import POINTS, BoundaryChoice, contact_positions
 
 
@@ -82,7 +82,7 @@ def tip_lengths(points: np.ndarray, chord: np.ndarray, positions: np.ndarray) ->
     The integral of the nodes' hats over the tip's line: together they cover it once. `points` (m), shape (nodes, 3), and
     fractions `chord` of the nodes on the line, in order; `positions`: fractions of the contact nodes.
     """
-    radius, axial = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    radius, _, axial = cylinder(points)
     meridian = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(radius), np.diff(axial)))])
     hats = np.array([np.interp(chord, positions, unit) for unit in np.eye(len(positions))])
     return np.trapezoid(hats, meridian, axis=1)
@@ -91,8 +91,7 @@ def tip_lengths(points: np.ndarray, chord: np.ndarray, positions: np.ndarray) ->
 def mean_positions(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
     """Positions (m), shape (contact nodes, 3): weighted means of radius, angle and axial position, so on the tip's cone."""
     alone = np.diff(weights.indptr) == 1
-    radius, theta = np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
-    radius, theta, axial = weights @ radius, weights @ theta, weights @ points[:, 2]
+    radius, theta, axial = (weights @ part for part in cylinder(points))
     positions = np.stack([radius * np.cos(theta), radius * np.sin(theta), axial], axis=1)
     # a single node is where it is, to the bit
     positions[alone] = points[weights.indices[weights.indptr[:-1][alone]]]

@@ -7,6 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 
+def cylinder(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Radius (m), angle (rad) and axial position (m) of points, shape (n, 3)."""
+    return np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0]), points[:, 2]
+
+
 @dataclass(frozen=True)
 class RecoveryNodes:
     """Nodes whose displacement can be recovered from the reduced coordinates.
@@ -36,13 +41,13 @@ class RecoveryNodes:
 
         Zero for a single node. The nodes of a tip line lie on the cone of the tip profile.
         """
-        radius, axial = np.hypot(self.points[:, 0], self.points[:, 1]), self.points[:, 2]
+        radius, _, axial = cylinder(self.points)
         length = axial[-1] - axial[0]
         return float(np.arctan((radius[-1] - radius[0]) / length)) if length != 0.0 else 0.0
 
     def cylindrical(self, displacement: np.ndarray) -> np.ndarray:
         """Turn displacements (..., n, 3) from x, y, z to radial, tangential (growing theta) and axial parts."""
-        theta = np.arctan2(self.points[:, 1], self.points[:, 0])
+        _, theta, _ = cylinder(self.points)
         x, y, z = np.moveaxis(displacement, -1, 0)
         cosine, sine = np.cos(theta), np.sin(theta)
         return np.stack([cosine * x + sine * y, cosine * y - sine * x, z], axis=-1)

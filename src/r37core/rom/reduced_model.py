@@ -9,7 +9,7 @@ from .contact_model import ContactModel
 from .craig_bampton import symmetric
 from .logarithmic_stiffness import LogarithmicStiffness
 from .quadratic_terms import QuadraticTerms
-from .recovery_nodes import RecoveryNodes
+from .recovery_nodes import RecoveryNodes, cylinder
 from .stress_region import StressRegion
 
 
@@ -104,10 +104,11 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
 
 def _node_fields(nodes: RecoveryNodes, modes: np.ndarray) -> dict[str, np.ndarray]:
     """Fields of a contact model for nodes that are moved by `modes`, shape (coordinates, modes)."""
+    radius, theta, _ = cylinder(nodes.points)
     return {
         "displacement_operator": _cylindrical_parts(nodes, nodes.basis @ modes),
-        "radius": np.hypot(nodes.points[:, 0], nodes.points[:, 1]),
-        "theta": np.arctan2(nodes.points[:, 1], nodes.points[:, 0]),
+        "radius": radius,
+        "theta": theta,
         "rotation_shapes": _cylindrical_parts(nodes, nodes.rotation_shapes),
     }
 
