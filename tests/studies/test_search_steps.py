@@ -248,14 +248,6 @@ def test_a_variable_of_scenes_changes_every_scene_that_has_it_and_no_model(confi
     assert isinstance(quantities(config_copy, {"d0001": (0.002, 0.1)})[0], dict)
 
 
-def test_with_a_variable_of_the_blade_each_design_but_the_start_has_a_model(config_copy):
-    settings = searched_settings(config_copy, f"{SCENES_ALONE}, stagger_deg.tip: [-3, 3]")
-    start, design = (runs_of(settings, name, values) for name, values in (("start", None), ("d0002", (0.002, 0.1, 1.0))))
-    nominal = recipes(settings, "Free", {"contact_model": None})["contact_model"]
-    assert start.structure["contact_model"] == nominal != design.structure["contact_model"]
-    assert '"thickness": 0.002' in design.scenes["abradable"][NOMINAL].task
-
-
 def test_tolerances_spread_about_the_value_of_the_design(config_copy):
     searched_settings(config_copy, SCENES_ALONE)
     spread = "members: 4, of_scenes: { friction.coefficient: { uniform_percent: 5 } }"

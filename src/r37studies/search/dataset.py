@@ -1,6 +1,6 @@
 """search.nc and search.csv: what a search writes, and its last line."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,14 +31,11 @@ def search_dataset(tried: Mapping[str, Design], choice: SearchChoice) -> xr.Data
     def listed(name: str) -> list[Any]:
         return [getattr(design, name) for design in designs]
 
-    def flags(values: Iterable[object], kind: str = "i1") -> np.ndarray:
-        return np.array(list(values), kind)
-
-    places = [order.index(name) + 1 if name in order else 0 for name in tried]
+    places = np.array([order.index(name) + 1 if name in order else 0 for name in tried], "i4")
     variables = {
         "value": (("design", "variable"), listed("values"), "in the unit of the key"),
         "round": (of_design, listed("round"), "that proposed the design; -1 of the start"),
-        "feasible": (of_design, flags(listed("is_feasible")), "whether it can be built and keeps all constraints"),
+        "feasible": (of_design, np.array(listed("is_feasible"), "i1"), "whether it can be built and keeps all constraints"),
         "objective_value": (of_objective, listed("objectives"), "in the unit of the objective"),
         "objective_scatter": (of_objective, listed("scatters"), "standard deviation by chance"),
         "constraint_value": (of_constraint, np.array(constraints, float), "in the unit of the constraint"),
@@ -48,12 +45,12 @@ def search_dataset(tried: Mapping[str, Design], choice: SearchChoice) -> xr.Data
         "constraint_highest": (("constraint",), highest, "what may not be passed, in the unit of the constraint"),
         "not_dominated": (
             of_design,
-            flags(name in front for name in tried),
+            np.array([name in front for name in tried], "i1"),
             "whether the design keeps all constraints and no other that does is better in all objectives",
         ),
         "order": (
             of_design,
-            flags(places, "i4"),
+            places,
             "place among the best designs, 1 the first; 0 for one that cannot be built or breaks a constraint",
         ),
     }

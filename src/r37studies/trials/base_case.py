@@ -135,10 +135,14 @@ class BaseCase:
         """ConfigError unless blade, scenes and base are in their files, and the order in the Campbell diagram."""
         settings, section, refusals = self.settings, self._section, ConfigRefusals()
         documents, name = settings.documents, self.declared.name
-        scenes = section.scenes if isinstance(section.scenes, list) else []
-        refusals.of(documents.known, (name, "blade"), filter(None, [section.blade]), settings.designs.entries, documents.blades)
-        refusals.of(documents.known, (name, "scenes"), scenes, settings.scene_designs.names, documents.scenes)
-        refusals.of(documents.known, (name, "base"), filter(None, [section.base]), settings.levels, documents.levels)
+        for key, known, document in (
+            ("blade", settings.designs.entries, documents.blades),
+            ("scenes", settings.scene_designs.names, documents.scenes),
+            ("base", settings.levels, documents.levels),
+        ):
+            named = getattr(section, key)
+            names = [] if named in (None, "all") else named if isinstance(named, list) else [named]
+            refusals.of(documents.known, (name, key), names, known, document)
         if section.engine_order:
             refusals.of(engine_order_is_known, settings, (name, "engine_order"), section.engine_order)
         refusals.tell()

@@ -33,23 +33,21 @@ TABLE = "r37studies.trials.estimate_tables.table"
 
 def cases(settings: Settings) -> dict[str, Case | str]:
     """A case for each blade and scene."""
-    return {"__".join(pair): _case(settings, *pair) for pair in settings.speed_plans}
-
-
-def _case(settings: Settings, blade: str, scene: str) -> Case:
-    chosen, every = settings.scenes[scene], settings.section(SECTION).every
-    certain = settings.speed_plans[blade, scene].certain
-    # each speed from the middle of the part that it stands for
-    return Case(
-        blade,
-        chosen.tip_line,
-        chosen.scene,
-        settings.integration_choice(blade, scene, 0.0),
-        certain[min(every // 2, len(certain) - 1) :: every],
-        results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
-        material=settings.blades[blade].material,
-        kept=settings.fidelity.time_integration.kept,
-    )
+    every, planned = settings.section(SECTION).every, dict[str, Case | str]()
+    for (blade, scene), plan in settings.speed_plans.items():
+        chosen = settings.scenes[scene]
+        planned[f"{blade}__{scene}"] = Case(
+            blade,
+            chosen.tip_line,
+            chosen.scene,
+            settings.integration_choice(blade, scene, 0.0),
+            # each speed from the middle of the part that it stands for
+            plan.certain[min(every // 2, len(plan.certain) - 1) :: every],
+            results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
+            material=settings.blades[blade].material,
+            kept=settings.fidelity.time_integration.kept,
+        )
+    return planned
 
 
 def values(settings: Settings, members: Mapping[Pair, int]) -> dict[str, Any]:
