@@ -100,10 +100,14 @@ def texts(of):
     return [text.get_text() for text in of]
 
 
+def marks(axes):
+    """Marks of one kind each, those without any left out."""
+    return [one for one in axes.collections if isinstance(one, PathCollection) and len(one.get_offsets())]
+
+
 def circles(axes):
     """Speed, frequency and area of each circle."""
-    marks = [one for one in axes.collections if isinstance(one, PathCollection)]
-    places = [(one.get_offsets(), one.get_sizes()) for one in marks if len(one.get_offsets())]
+    places = [(one.get_offsets(), one.get_sizes()) for one in marks(axes)]
     return [row for offsets, sizes in places for row in np.column_stack([offsets, np.resize(sizes, len(offsets))])]
 
 
@@ -163,10 +167,14 @@ def test_speeds_that_are_cut_free_or_growing_have_open_markers(datasets):
     for axes in figure.axes[:2]:
         curve = next(line for line in axes.lines if line.get_label() == "abradable lining")
         for marker, label, speeds in (("o", "cut free at the end", [1725, 1750, 1775]), ("^", "growing at the end", [1700])):
-            (marks,) = (line for line in axes.lines if line.get_label() == label)
-            assert (marks.get_marker(), marks.get_fillstyle(), marks.get_color()) == (marker, "none", curve.get_color())
-            np.testing.assert_array_equal(marks.get_xdata(), speeds)
-            np.testing.assert_array_equal(marks.get_ydata(), curve.get_ydata()[np.isin(curve.get_xdata(), speeds)])
+            (open_ones,) = (line for line in axes.lines if line.get_label() == label)
+            assert (open_ones.get_marker(), open_ones.get_fillstyle(), open_ones.get_color()) == (
+                marker,
+                "none",
+                curve.get_color(),
+            )
+            np.testing.assert_array_equal(open_ones.get_xdata(), speeds)
+            np.testing.assert_array_equal(open_ones.get_ydata(), curve.get_ydata()[np.isin(curve.get_xdata(), speeds)])
     assert {"cut free at the end", "growing at the end"} <= set(texts(figure.legends[0].get_texts()))
 
 
@@ -375,8 +383,7 @@ def test_no_interaction_that_was_above_yield_looks_like_one_that_never_was(datas
         none | {"peak_speed_rad_s": 1000.0, "share_of_revolutions_above_yield": np.nan},
     )
     axes = figure.axes[0]
-    marks = [one for one in axes.collections if isinstance(one, PathCollection) and len(one.get_offsets())]
-    looks = {float(one.get_offsets()[0][0]): (len(one.get_paths()[0]), one.get_facecolors()[0][3]) for one in marks}
+    looks = {float(one.get_offsets()[0][0]): (len(one.get_paths()[0]), one.get_facecolors()[0][3]) for one in marks(axes)}
     diamond, ring = (len(MarkerStyle(shape).get_path()) for shape in "Do")
     assert looks == {1700.0: (ring, 0.45), 1200.0: (diamond, 0.45), 900.0: (ring, 0.0), 1000.0: (ring, 0.0)}
     (line,) = (line for line in axes.lines if line.get_xdata().tolist() == [1150.0, 1260.0])

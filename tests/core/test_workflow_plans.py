@@ -115,11 +115,11 @@ def test_models_of_a_scene_and_without_stress_no_basis(chosen):
 
 
 def test_task_of_a_simulation(chosen):
-    task = json.loads(Sweep(chosen).task(of(blade="Ref", scene="direct", speed="900")))
+    scenes = ("direct", "abradable")
+    task, lined = (json.loads(Sweep(chosen).task(of(blade="Ref", scene=scene, speed="900"))) for scene in scenes)
     assert task["scene"]["lining"] is None
     level = chosen.fidelity.time_integration
     assert task["choice"]["time_step"] == level.largest_time_step_s.direct
-    lined = json.loads(Sweep(chosen).task(of(blade="Ref", scene="abradable", speed="900")))
     assert lined["choice"]["time_step"] == level.largest_time_step_s.lined
     assert task["choice"]["revolutions"] == level.revolutions
     assert task["kept"]["wear_angles"] == level.wear_angles
