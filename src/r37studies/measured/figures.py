@@ -15,7 +15,7 @@ from r37core.figures import style
 from r37studies.agreement import groups, words
 
 NO_MEMBERS = Path("none")
-_ORDERS = "engine order"
+"""Stands for the file of members where there is none: by its annotation a figure takes a path (r37core.figures.steps)."""
 
 _CURVES = {"displacement_normal, rms": "rms_normal", "displacement_tangential, rms": "rms_tangential"}
 """Quantity that members under tolerances have, too, at the leading edge."""
@@ -27,7 +27,9 @@ def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: Path = N
     `members`: file of the members under tolerances, where there are some.
     """
     own = [(quantity, rows) for (*pair, quantity, _), rows in groups(table) if pair == [blade, scene]]
-    sampled = None if members == NO_MEMBERS else _sampled(read_dataset(members), blade, scene)
+    sampled = None
+    if members != NO_MEMBERS and blade in (every := read_dataset(members))["blade"].values and scene in every["scene"].values:
+        sampled = every.sel(blade=blade, scene=scene)
     figure, grid = plt.subplots(len(own), 1, figsize=(style.PAGE, 0.4 + 2.1 * len(own)), squeeze=False)
     for axes, (quantity, rows) in zip(grid.flat, own, strict=True):
         rows = rows.assign(simulated=rows["simulated"].replace(np.inf, np.nan))
@@ -53,12 +55,6 @@ def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: Path = N
         axes.set(xlabel=label, ylabel=f"{fill(quantity, 24)}\n({unit or '1'})", title=words(rows).split("; ")[0])
     grid.flat[0].legend()
     return figure
-
-
-def _sampled(members: xr.Dataset, blade: str, scene: str) -> xr.Dataset | None:
-    """Part of a blade in a scene, where there is one."""
-    is_there = blade in members["blade"].values and scene in members["scene"].values
-    return members.sel(blade=blade, scene=scene) if is_there else None
 
 
 def draw_calibration(calibration: xr.Dataset) -> Figure:

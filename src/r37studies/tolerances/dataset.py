@@ -118,12 +118,12 @@ def _pair_dataset(pair: tuple[str, str], members: Sequence[xr.Dataset]) -> xr.Da
 
 def _chances(above: xr.DataArray) -> dict[str, xr.DataArray]:
     """The chance of passing yield at each speed, and the ends of its interval; `above`: whether a member does, at a speed."""
-    name, meaning = "probability_above_yield", "share of the members above yield, diverged ones among them"
     count = above.sum("member")
     low, high = share_ends(count.values, above.sizes["member"])
     ends = f"end of what that share says of all that could be drawn, {CONFIDENCE:.0%} sure"
-    return {
-        name: above.mean("member").assign_attrs(about("1", meaning)),
-        f"{name}_low": count.copy(data=low).assign_attrs(about("1", f"lower {ends}")),
-        f"{name}_high": count.copy(data=high).assign_attrs(about("1", f"upper {ends}")),
+    parts = {
+        "": (above.mean("member"), "share of the members above yield, diverged ones among them"),
+        "_low": (count.copy(data=low), f"lower {ends}"),
+        "_high": (count.copy(data=high), f"upper {ends}"),
     }
+    return {f"probability_above_yield{end}": part.assign_attrs(about("1", text)) for end, (part, text) in parts.items()}
