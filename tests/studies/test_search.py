@@ -12,9 +12,8 @@ from r37core.config import ConfigError
 from r37core.product.extensions import read_settings
 from r37studies.search import steps
 from r37studies.search.dataset import search_dataset, search_table
-from r37studies.search.designs import designs_of
+from r37studies.search.designs import START, SearchChoice, designs_of
 from r37studies.search.figures import draw_designs
-from r37studies.search.problem import START, SearchChoice
 from r37studies.search.quantity import contact_value, structure_value
 from r37studies.search.section import ConstraintSection, ObjectiveSection, QuantitySection, SearchSection
 from r37studies.search.steps import next_designs

@@ -15,8 +15,8 @@ from r37core.base.variable import about
 from r37core.results.closing import counted
 from r37studies.surrogate.designs import Design, best_first, not_dominated
 
+from .designs import START, UNKNOWN, SearchChoice
 from .plan import DATASET, TABLE
-from .problem import START, UNKNOWN, SearchChoice
 
 
 def search_dataset(tried: Mapping[str, Design], choice: SearchChoice) -> xr.Dataset:

@@ -15,9 +15,8 @@ from r37core.sweep.driver import one_by_one
 from r37studies.carried import Carried
 
 from .checks import search_can_be_run
-from .designs import FOLDER, choice_of, designs_of, is_asked
+from .designs import FOLDER, START, choice_of, designs_of, is_asked
 from .evaluation import Evaluation
-from .problem import START
 from .section import SECTION
 
 DATASET, TABLE = "<results>/search.nc", "<results>/search.csv"

@@ -20,9 +20,8 @@ from r37studies.surrogate.designs import Design, best_first, not_dominated
 from r37studies.surrogate.proposal import first_designs, propose
 
 from .dataset import search_dataset, search_table
-from .designs import choice_of
+from .designs import QUASI_RANDOM, START, SearchChoice, choice_of
 from .evaluation import Evaluation
-from .problem import QUASI_RANDOM, START, SearchChoice
 
 
 def search(input: Any, output: Any, params: Any) -> None:
