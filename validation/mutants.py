@@ -31,7 +31,7 @@ TESTS = {
     "contact/laws.py": "test_contact.py",
     "fem/matrices.py": "test_fem.py",
     "results/campbell.py": "test_campbell.py",
-    "requirements/": "test_requirements.py test_looks.py",
+    "requirements/": "test_requirements.py test_looks.py test_study_refusals.py",
     "results/closing.py": "test_closing.py",
     "results/datasets.py": "test_results.py",
     "results/exceedance.py": "test_exceedance.py",
@@ -55,7 +55,7 @@ TESTS = {
     "results/": "test_results.py test_exceedance.py test_interactions.py test_measures.py test_campbell.py "
     "test_elastic_casing.py test_explorer.py test_tolerances.py",
     "rotors/": "test_rotor_numbers.py",
-    "search/": "test_search.py test_search_steps.py test_search_calls.py",
+    "search/": "test_search.py test_search_steps.py test_search_calls.py test_study_refusals.py",
     "surrogate/gaussian_processes.py": "test_search_proposals.py",
     "surrogate/designs.py": "test_search_proposals.py",
     "surrogate/proposal.py": "test_search_proposals.py",
