@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 from explorer_cases import beside
-from test_explorer import datasets, judged, page  # noqa: F401  # noqa: F401
+from test_explorer import datasets, page  # noqa: F401
 
 import r37studies
 from r37core.explorer import page_parts
@@ -12,6 +12,15 @@ from r37core.explorer.contents import explorer_contents
 from r37studies.designs.panel import contents as design_panel
 
 STUDIES = Path(r37studies.__file__).parent
+
+
+def judged(*verdicts):
+    """Panel of the requirements with rows: blade, scene, verdict on the length above yield, of which 24 rad/s are allowed."""
+    names = ("blade", "scene", "verdict")
+    numbers = {"requirement": "above_yield", "limit": 24.0, "value": 1.0, "margin": 1.0, "unit": "rad/s"}
+    numbers |= {"certainty": "", "note": "", "from_rad_s": None, "to_rad_s": None}
+    rows = [dict(zip(names, row, strict=True)) | numbers for row in verdicts]
+    return {"requirements": {"pairs": [], "requirements": rows}}
 
 
 def test_the_map_of_designs_has_the_line_of_a_requirement(page, datasets, tmp_path):
