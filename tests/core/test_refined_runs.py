@@ -8,7 +8,6 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
-import yaml
 from shared_sweep import copy_structure
 from stubbed_runs import BLADES, REFINED, SCENES, copy_stubbed, refine, runs, simulated
 from workflow_runs import copy_finished, digests, kill_snakemake, lose_speed, overlay, planned_outputs, snakemake
@@ -128,31 +127,3 @@ def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
     made = digests(project)
     assert "results/CS100/abradable/response.nc" in made
     assert made.items() <= digests(real).items()
-
-
-CROSSING = {"mode": "1B", "engine_order": 6, "first": 0.02, "last": 0.01}
-RUN_UPS = {"up": {"from_rpm": 9500, "to_rpm": 9600, "revolutions": 4, "scenes": ["abradable"]}}
-RUN_UPS["down"] = {"crossing": CROSSING, "rate_rad_s2": 500, "scenes": ["abradable"]}
-TOLERANCES = {"members": 2, "largest_share": 0.9, "of_scenes": {"friction.coefficient": {"uniform_percent": 20}}}
-TOLERANCES["of_blades"] = {"material.youngs_modulus_pa": {"uniform_percent": 1}}
-
-
-@pytest.fixture(scope="module")
-def with_extensions(real, tmp_path_factory):
-    """A run that was killed in the midst of its members and has gone on."""
-    folder = copy_finished(real, tmp_path_factory.mktemp("extensions") / "project")
-    extensions = {"run_ups": RUN_UPS, "tolerances": {**TOLERANCES, "scenes": ["abradable"]}}
-    overlay(folder, "config.yaml", yaml.safe_dump(extensions, sort_keys=False))
-    files = [f"results/{name}" for name in ("tolerances.nc", "tolerances.csv", "run_ups.nc")]
-    members = folder / "results/tolerances/CS100/abradable"
-
-    def parts():
-        # a part counts once its digest is there: one whose job was killed before is rightly made again
-        return {digest: digest.stat().st_mtime_ns for digest in members.glob("*/speed_*.npz.sha256")}
-
-    kill_snakemake(folder, *files, "--cores", "2", when=lambda: len(parts()) > 2)
-    assert not (members / "members.nc").exists()
-    before = parts()
-    snakemake(folder, *files, "--cores", "2")
-    assert before.items() < parts().items()
-    return folder

@@ -6,24 +6,21 @@ import subprocess
 import sys
 
 import pytest
-from conftest import CHECKOUT
+from conftest import CHECKOUT, DELIVERED
 from workflow_runs import copy_project, digests, plan, snakemake
 
 LEFT_OUT = shutil.ignore_patterns("studies", "imports", "face", "r37", "r37studies", "r37imports", "__pycache__", "*.egg-info")
-NEEDED = ("src", "tests", "workflow", "config", "profiles", "envs", "docs")
-NEEDED += ("Snakefile", "pyproject.toml", "Makefile", "README.md")
 
 
 @pytest.fixture(scope="module")
 def alone(tmp_path_factory):
     """A copy of the checkout that has the core alone."""
     folder = tmp_path_factory.mktemp("alone")
-    for name in NEEDED:
+    for name in (*DELIVERED, "src", "tests"):
         if (CHECKOUT / name).is_dir():
             shutil.copytree(CHECKOUT / name, folder / name, symlinks=True, ignore=LEFT_OUT)
         else:
             shutil.copy(CHECKOUT / name, folder / name)
-    shutil.rmtree(folder / "config")
     shutil.copytree(CHECKOUT / "tests/config", folder / "config")
     shutil.copytree(CHECKOUT / "config/schemas", folder / "config/schemas")
     return folder
