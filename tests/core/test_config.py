@@ -11,10 +11,9 @@ from workflow_runs import overlay
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, command_line_document, read_document
 from r37core.config.document import ConfigRefusals
-from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws, remarks_on_linear_variants
+from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws
 from r37core.plans.provenance import structure_hash
 from r37core.product.extensions import load_settings, read_settings
-from r37core.product.schemas import schemas
 
 
 def load(folder, **changes):
@@ -23,17 +22,6 @@ def load(folder, **changes):
 
 def regions(**changes):
     return {"structure": {"stress_regions": changes}}
-
-
-@pytest.mark.parametrize(
-    ("name", "contact"),
-    [*((name, "patches") for name in ("decide", "ranking", "search", "search_best", "tolerances")), ("rotor", "points")],
-)
-def test_decisions_have_large_displacements(config_copy, name, contact):
-    settings = read_settings(config_copy, read_document(config_copy, f"config/{name}.yaml"))
-    assert {settings.reduction_choice(blade).kinematics for blade in settings.blades} == {"quadratic"}
-    assert {settings.boundary_choice(blade).contact for blade in settings.blades} == {contact}
-    assert remarks_on_linear_variants(settings) == []
 
 
 def test_the_box_is_of_the_benchmark_and_its_variants(config_copy):
@@ -127,12 +115,6 @@ def test_laws_beyond_what_a_run_can_bear_are_remarked_on(config_copy, scene, cha
     begins = f"scene '{scene}': {said}"
     assert [remark[: len(begins)] for remark in remarks] == ([begins] if said else [])
     assert set(remarks) <= set(remarks_of_pipeline(read_settings(config_copy)))
-
-
-def test_schemas_are_fresh(root):
-    """`python -m r37core.product.schemas` renews them."""
-    folder = root / "config/schemas"
-    assert {file.name: file.read_text() for file in folder.iterdir()} == schemas()
 
 
 def test_a_message_points_into_the_file_that_said_it_and_changes_keep_what_they_do_not_name(config_copy):

@@ -4,16 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import yaml
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import NARROW, oscillator, random_model, with_static_modes
 from integration_runs import ENGINES, whole_run
 from workflow_runs import overlay
 
-from r37core.config import ConfigError, checked_scene, command_line_document
+from r37core.config import ConfigError, checked_scene
 from r37core.config.remarks import remarks_on_laws
 from r37core.product.extensions import read_settings
-from r37core.product.remarks import remarks as remarks_of_run
 from r37core.rom.contact_weights import tip_lengths
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.lining_at_tip import lining_at_tip
@@ -141,39 +139,3 @@ SPREAD_COLD = {"casing.clearance.cold_m": {"uniform_percent": 5}}
 QUANTILE = {"measure": "largest_rms_m", "scenes": ["abradable"], "quantile": 0.9}
 SEARCH = {"blade": "Ref", "variables": {"stagger_deg.tip": [-2, 2]}, "objectives": {"lined": QUANTILE}}
 SEARCH |= {"tolerances": {"members": 2, "of_scenes": SPREAD}}
-
-
-@pytest.mark.parametrize(
-    ("config", "scenes", "named"),
-    [
-        ({}, {}, None),
-        ({"tolerances": {"members": 2, "of_scenes": SPREAD}}, {}, "abradable, direct"),
-        ({"tolerances": {"members": 2, "of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}}, {}, None),
-        ({"search": SEARCH}, {}, "abradable, direct"),
-        ({"tolerances": {"members": 2, "of_scenes": SPREAD_COLD}, "scenes": ["growing_direct"]}, {}, "growing_direct"),
-        ({"tolerances": {"members": 2, "of_scenes": SPREAD}}, {"direct": {"lobes": 0}}, "abradable"),
-        ({}, {"direct": {"clearance_m": 4e-4}}, "abradable, direct"),
-        ({"scenes": ["direct"]}, {"direct": {"clearance_m": 4e-4}}, None),
-    ],
-)
-def test_lobes_that_scale_are_remarked_on_once(config_copy, config, scenes, named):
-    run = {"blades": ["Ref"], "scenes": ["abradable", "direct"], **config}
-    for in_metres in (False, True):
-        height = {"amplitude_m": 7.12e-4} if in_metres else {"amplitude_clearances": 2.0}
-        file = config_copy / "config/scenes.yaml"
-        entries = yaml.safe_load(file.read_text())
-        for name, entry in entries.items():
-            casing = entry.setdefault("casing", {})
-            for key in ("amplitude_m", "amplitude_clearances"):
-                casing.pop(key, None)
-            casing |= height | (scenes.get(name, {}))
-        file.write_text(yaml.safe_dump(entries))
-        remarks = [one for one in remarks_of_run(read_settings(config_copy, command_line_document(run))) if "lobes" in one]
-        expected = [] if in_metres or named is None else [f"scene {named}: {SAID}"]
-        assert [one[: len(expected[0])] if expected else one for one in remarks] == expected
-
-
-def test_shipped_runs_hold_the_height(root):
-    for name in ("tolerances", "ranking", "clearance"):
-        changes = yaml.safe_load((root / f"config/{name}.yaml").read_text())
-        assert not [one for one in remarks_of_run(read_settings(root, command_line_document(changes))) if "lobes" in one]

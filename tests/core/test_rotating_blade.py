@@ -186,7 +186,6 @@ def test_rotating_has_the_modes_alone(reduced, displaced, steel):
     ("changes", "said"),
     [
         ({"structure": {"kinematics": "quadratic"}, "fidelity": "paper"}, "a level of exact_modal"),
-        ({"structure": {"kinematics": "rotating"}, "exports": {"full_matrices": True}}, "kinematics: linear"),
         ({"structure": {"kinematics": "large"}}, "quadratic"),
         ({"structure": {"kinematics": "quadratic", "quadratic_modes": 7}}, "quadratic_modes"),
     ],

@@ -58,7 +58,7 @@ def test_a_sweep_has_the_same_bits(alone, tmp_path):
 
 @pytest.mark.slow
 def test_its_tests_need_nothing_else(alone):
-    """All are collected, and those of the configuration and of plain values pass: `make test-core` runs all of them."""
+    """All are collected, and those of the configuration and of plain values pass."""
     environment = {**os.environ, "PYTHONPATH": str(alone / "src")}
     for arguments in (["--collect-only", "tests"], ["-m", "not slow", "tests/core/test_plain.py", "tests/core/test_config.py"]):
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]

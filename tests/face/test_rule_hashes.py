@@ -5,6 +5,7 @@ import re
 from importlib import import_module
 
 import pytest
+import test_code_hashes
 
 from r37core.base.packages import PACKAGES
 from r37core.plans import code as code_module
@@ -55,3 +56,14 @@ def test_every_rule_runs_again_for_the_modules_of_its_closure_and_no_other(root,
         monkeypatch.setattr(code_module, "fingerprint", of_edited)
         wrong = [script for script in scripts if (code(*script) != before[script]) != (edited in closures[script])]
         assert wrong == [], edited
+
+
+@pytest.mark.slow
+def test_steps_of_studies_have_the_code_that_they_load(root):
+    names = ("r37studies.trials.steps.run", "r37studies.run_ups.steps.record", "r37studies.exports.steps.stress")
+    test_code_hashes.test_the_closure_has_all_that_python_loads(root, names)
+
+
+def test_cases_follow_from_no_setting(root):
+    code = CodeHashes(root / "src", root / "workflow/scripts")
+    assert not {"config", "workflow"} & {file.parent.name for file in code.closure("r37studies.trials.steps.run")}

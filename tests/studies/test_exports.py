@@ -10,7 +10,9 @@ from defaults import Orientation
 from test_refinement import PLACE, RAD_S, on_command_line
 
 from r37core.base.speeds import exact_text
+from r37core.config import ConfigError, command_line_document
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.extensions import read_settings
 from r37core.time_integration.speed_file import write_speed
 from r37studies.exports.matrices_out import write_full_matrices
 from r37studies.exports.plan import Exports
@@ -91,3 +93,9 @@ def test_exports_name_speeds_in_rpm(root):
     exported = Exports(Sweep(settings))
     assert not exported.only_worst(PLACE)
     assert exported.speed_files(PLACE) == [f"<results>/Ref/direct/speed_{exact_text(9000 * RAD_S)}.npz"]
+
+
+def test_full_matrices_are_those_of_linear_blades(root):
+    changes = {"structure": {"kinematics": "rotating"}, "exports": {"full_matrices": True}}
+    with pytest.raises(ConfigError, match="kinematics: linear"):
+        read_settings(root, command_line_document(changes))

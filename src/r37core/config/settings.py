@@ -83,7 +83,7 @@ class Settings:
     @cached_property
     def made(self) -> Callable[..., Any]:
         """Gives what a function makes of these settings and of more arguments, each made once: what takes long, or often."""
-        return cache(lambda make, *of: make(self, *of))
+        return cache(lambda make, *arguments: make(self, *arguments))
 
     @cached_property
     def blade_names(self) -> list[str]:

@@ -89,7 +89,7 @@ def _rotation_stress(
 def _large_motion(
     model: ReducedModel, basis: np.ndarray, rotation: np.ndarray, second_order: SecondOrder
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """What large displacements add to a stress operator: columns of the products of second order, and fields, see there."""
+    """Columns of a stress operator for the products of second order of large displacements, and fields of StressOperator."""
     per_rotation = np.stack(
         [second_order(np.broadcast_to(shape[..., None], basis.shape), basis) for shape in np.moveaxis(rotation, 2, 0)]
     )

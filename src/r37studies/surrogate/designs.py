@@ -70,7 +70,7 @@ def not_dominated(evaluated: Sequence[Design]) -> list[Design]:
     feasible = [design for design in evaluated if design.is_feasible]
     values = np.array([design.objectives for design in feasible])
     beaten = ((values <= own).all(1) & (values < own).any(1) for own in values)
-    return [design for design, by in zip(feasible, beaten, strict=True) if not by.any()]
+    return [design for design, better in zip(feasible, beaten, strict=True) if not better.any()]
 
 
 def best_first(evaluated: Sequence[Design]) -> list[Design]:

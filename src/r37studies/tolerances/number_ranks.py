@@ -47,13 +47,16 @@ def ranking(values: np.ndarray, measure: np.ndarray) -> xr.Dataset:
         explained = 1.0 - rest / members
     # a number that moves the measure at all
     known = low * high > 0.0
-    interval, by = f"of the rank coefficient, {CONFIDENCE:.0%} sure", "rank coefficients, of numbers that have one beyond zero"
+    interval, criterion = (
+        f"of the rank coefficient, {CONFIDENCE:.0%} sure",
+        "rank coefficients, of numbers that have one beyond zero",
+    )
     columns = {
         "rank_coefficient": (coefficient, "standardized rank coefficient"),
         "rank_coefficient_low": (low, f"lower end {interval}"),
         "rank_coefficient_high": (high, f"upper end {interval}"),
-        "rank_place_low": (np.where(known, first, np.nan), f"first place that the number may have by {by}"),
-        "rank_place_high": (np.where(known, last, np.nan), f"last place that the number may have by {by}"),
+        "rank_place_low": (np.where(known, first, np.nan), f"first place that the number may have by {criterion}"),
+        "rank_place_high": (np.where(known, last, np.nan), f"last place that the number may have by {criterion}"),
         "rank_explained": (explained, "share of the ranks' variance that they explain"),
         "rank_members": (members, "members that the coefficients are made of"),
     }
