@@ -29,7 +29,7 @@ def modules(package):
 
 def packages():
     """Dotted names of the folders and modules of the packages."""
-    found = (path for package in BELOW for path in (SOURCE / package).iterdir())
+    found = (path for package in BELOW for path in (SOURCE / package).glob("*"))
     found = (path for path in found if (path / "__init__.py").exists() or path.suffix == ".py")
     return sorted(f"{path.parent.name}.{path.stem}" for path in found if not path.stem.startswith("_"))
 

@@ -185,5 +185,5 @@ def test_a_run_keeps_the_kind_that_is_asked_for(contact, tmp_path):
 
 def test_a_rotor_has_no_kind(root):
     entry = plain(read_settings(root, command_line_document({"scenes": "all"})).scene_designs.entries["rotor_abradable"])
-    with pytest.raises(ConfigError, match="motion_kind with a rotor"):
+    with pytest.raises(ConfigError, match="found motion_kind; allowed: only in a scene without rotor"):
         checked_scene(entry | {"results": ["motion_kind"]})
