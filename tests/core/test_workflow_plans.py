@@ -11,10 +11,8 @@ from r37core.base.plain import from_plain
 from r37core.config import command_line_document
 from r37core.config.settings import most_runs
 from r37core.contact.scene import Scene
-from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
-from r37core.product.targets import targets
 from r37core.sweep.blade_sweep import BladeSweep
 
 PLACES = {"blades": ["Ref", "L50"], "scenes": ["abradable", "direct"]}
@@ -177,20 +175,3 @@ def test_the_input_hash_is_of_all_that_a_file_is_made_of(config_copy, name, old,
     file.write_text(file.read_text().replace(old, new))
     after = hashes()
     assert {kind for kind in before if before[kind] != after[kind]} == changes
-
-
-def test_targets_are_what_the_configuration_asks_for(config_copy):
-    few = {"blades": ["Ref"], "scenes": ["direct"], "speeds": [900]}
-    scenes = config_copy / "config/scenes.yaml"
-    scenes.write_text(scenes.read_text().replace("results: [spectrum, signal,", "results: [spectrum, signal, shapes,"))
-
-    def asked(**sections):
-        settings = read_settings(config_copy, command_line_document(few | sections))
-        sweep = Sweep(settings)
-        return {file.removeprefix("<results>/") for file in filled(targets(sweep))}
-
-    without = asked()
-    assert {"rms.nc", "stress.nc", "spectrum.nc", "figures/shapes_Ref__direct.png"} <= without
-    assert {"figures/response_Ref.png", "figures/spectrum_Ref__direct.pdf", "figures/comparison_direct.pdf"} <= without
-    assert not [file for file in without if "wear" in file or "design" in file or "signals" in file or "L50" in file]
-    assert asked(signals={"speeds_rad_s": [900]}) - without == {"Ref/direct/signals.nc"}
