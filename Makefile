@@ -11,7 +11,7 @@ LOCK := envs/lock.txt
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint $(LOCK)
 
 .DEFAULT_GOAL := help
-.PHONY: help all_blades campbell report test test-fast mutants size lint validation test-validation site setup lock clean clean-results
+.PHONY: help all_blades campbell report test test-fast mutants size lint validation test-validation site setup lock clean-results
 
 help: ## this list
 	@awk -F ': .*## ' '/^[a-z][a-z_-]*:.*## / {printf "make %-14s %s\n", $$1, $$2}' Makefile
@@ -82,9 +82,6 @@ lock: ## the newest versions that pyproject.toml allows, of all packages that th
 	{ echo "# written by make lock: what pip installed"; build/lock/bin/python -m pip freeze --exclude r37; } > $(LOCK).new
 	mv $(LOCK).new $(LOCK)
 	rm -rf build/lock
-
-clean: $(VENV)/.ready ## list results that the configuration no longer asks for, and parts that jobs of many simulations go on from
-	@$(BIN)/python -m snakemake all_blades --list-untracked --cores 1 2>/dev/null | grep '^results/' || true
 
 clean-results: ## remove results/ and logs/
 	rm -rf results logs

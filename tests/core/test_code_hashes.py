@@ -204,8 +204,8 @@ def test_the_closure_has_all_that_python_loads(root, names=STEPS_LOADED):
     for name in names:
         module, function = name.rsplit(".", 1)
         text = "".join(f"import {used}\n" for used in modules_used(getattr(import_module(module), function)))
-        text += "import sys\nfrom r37core.base.packages import PACKAGES\n"
-        text += "print(*(module.__file__ for name, module in sys.modules.items() if name.split('.')[0] in PACKAGES))"
+        text += f"import sys\npackages = {PACKAGES}\n"
+        text += "print(*(module.__file__ for name, module in sys.modules.items() if name.split('.')[0] in packages))"
         files = subprocess.run([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True, check=True).stdout.split()
         loaded = {*files} - {str(core / "__init__.py"), "None"}
         assert len(loaded) > 3

@@ -9,6 +9,7 @@ import sys
 import tarfile
 import tomllib
 import venv
+from itertools import count
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
@@ -235,6 +236,9 @@ REFUSED = {
     ),
     "r37.sweep: speeds: found 5 rad/s twice": call("sweep", "Ref", "direct", [5, {"start": 4, "stop": 5, "step": 1}]),
     "speeds: found .*; allowed: .* at least 1": call("sweep", "Ref", "direct", []),
+    "speeds: found '1700'; allowed: one number": call("sweep", "Ref", "direct", ["1700"]),
+    r"speeds\.stop: found '9'; allowed: one number": call("sweep", "Ref", "direct", {"start": 1, "stop": "9", "step": 1}),
+    "speeds: found more than 100000 values": call("sweep", "Ref", "direct", count(1000)),
     "speeds: found neither; allowed: speeds, in rad/s, or speeds_rpm": call("sweep", "Ref", "direct"),
     r"r37.sweep: speeds.0: found unknown key stpo; .* \(did you mean stop\?\)": call(
         "sweep", "Ref", "direct", {"start": 1, "stpo": 9}

@@ -1,7 +1,7 @@
 """A run of Snakemake as r37 finds and changes it: configuration, messages, lock, last words.
 
-Only this package knows Snakemake's inside, by the names that `SNAKEMAKE` has; `tests/test_console.py` looks for each of them
-there. Nothing is imported from it: the Snakefile hands over its objects.
+Only this package knows Snakemake's inside, by the names that `SNAKEMAKE` has; `tests/core/test_console.py` looks for each of
+them there. Nothing is imported from it: the Snakefile hands over its objects.
 """
 
 import atexit

@@ -15,7 +15,7 @@ from .structure_plan import Structure
 
 @dataclass(frozen=True)
 class Stage:
-    """A step, as `fem.steps.mesh`, with its parameters: plain values, and functions of wildcards as rules have them.
+    """A step, as `r37core.fem.steps.mesh`, with its parameters: plain values, and functions of wildcards as rules have them.
 
     `title`: what the stage is called while it works. `reads`: name of an input -> stage of the same blade that makes it.
     `modules`: those that the step imports by name.
