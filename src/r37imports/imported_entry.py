@@ -20,7 +20,8 @@ from r37core.config.blade_sections import (
 from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import ByName, FileName, LeftOut, Name, Section, left_out, or_section, refused
 from r37core.fem.orientation import Orientation
-from r37imports.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
+from r37imports.importing.files import digest_of, matrix_files, mesh_files
+from r37imports.importing.source import MatricesSource, MeshSource, Where
 from r37imports.refusal import ASKED
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut

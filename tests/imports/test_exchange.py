@@ -30,9 +30,10 @@ from r37imports.imported_entry import LengthUnit
 from r37imports.importing.abaqus_reader import read_abaqus
 from r37imports.importing.bulk_data import bulk_cards
 from r37imports.importing.coordinate_systems import GridPoints
+from r37imports.importing.files import SUFFIXES, mesh_files
 from r37imports.importing.import_mesh import _READERS, import_mesh
 from r37imports.importing.meshio_reader import quietly, read_nastran, read_with_meshio
-from r37imports.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, mesh_files
+from r37imports.importing.source import MASS_UNITS, STIFFNESS_UNITS
 from r37imports.placement import warn_of_size
 from r37imports.refusal import MeshWarning
 

@@ -25,10 +25,10 @@ from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.product.extensions import read_settings
 from r37imports.importing import ends, meshio_reader, tip
+from r37imports.importing.files import matrix_files
 from r37imports.importing.fitting_entry import find_axes
 from r37imports.importing.import_mesh import blade_parameters, import_mesh
 from r37imports.importing.raw_mesh import RawMesh
-from r37imports.importing.source import matrix_files
 from r37imports.refusal import MeshWarning
 
 

@@ -21,9 +21,9 @@ from r37core.mesh.generate import generate_mesh, quiet_gmsh
 from r37core.rom.region_choice import RegionChoice
 from r37imports.imported_entry import MeshEntry, SurfaceRule
 from r37imports.importing.file_material import ignored_material
+from r37imports.importing.files import mesh_files
 from r37imports.importing.import_mesh import import_mesh, size_in_words
 from r37imports.importing.meshio_reader import read_with_meshio
-from r37imports.importing.source import mesh_files
 from r37imports.refusal import ImportRefused, MeshWarning, located
 
 THEIRS = Orientation("mm", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), "negative")

@@ -10,7 +10,7 @@ from r37core.fem.material import Material
 
 from .abaqus_reader import deck_blocks
 from .bulk_data import bulk_cards, bulk_number
-from .source import DECK, kind_of, mesh_files
+from .files import DECK, kind_of, mesh_files
 
 _UNITS = ((1.0, 1.0), (1e6, 1e12), (1e9, 1e9), (1e3, 1e9), (6894.757, 1.068685e7))
 """Factors of modulus (Pa) and density (kg/m3) in m-kg-s, mm-t-s, mm-kg-ms, mm-kg-s and in-lbf-s, of which a file names none."""

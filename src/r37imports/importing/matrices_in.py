@@ -29,8 +29,9 @@ from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice
 from r37imports.placement import contact_nodes_to_blade
 from r37imports.refusal import ImportRefused, blamed, warn_of
 
+from .files import matrix_files
 from .matrix_file import read_matrix
-from .source import MatricesSource, matrix_files
+from .source import MatricesSource
 from .tip import arc_length, check_order, check_sense_of_nodes, fractions_along
 
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are

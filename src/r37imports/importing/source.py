@@ -1,8 +1,6 @@
 """Description of a blade of another program: its files, where root and tip are. Light: the configuration imports it."""
 
-import hashlib
-import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
@@ -16,14 +14,8 @@ from r37core.fem.elements import ELEMENTS
 from r37core.fem.orientation import Orientation
 from r37imports.refusal import ImportRefused, warn_of
 
-from .deck_text import included_files, is_deck
+from .files import matrix_files, mesh_files
 from .raw_mesh import RawMesh
-
-DECK = ".inp"
-"""Ending of a deck of Abaqus or CalculiX; the text tells it too."""
-
-SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
-"""Endings of mesh files that can be read."""
 
 
 @dataclass(frozen=True)
@@ -173,59 +165,6 @@ class MatricesSource(Definition):
     def files(self, root: Path) -> list[Path]:
         """The files of the folder. Raises ImportRefused as `matrix_files`."""
         return list(matrix_files(self.folder, root).values())
-
-
-def mesh_files(name: str, root: Path) -> list[Path]:
-    """The mesh file `name` in the folder `root` and those that it includes (*INCLUDE of an Abaqus deck).
-
-    Raises ImportRefused for a file of an unknown kind, for one that is not there, and for one that includes itself.
-    """
-    file = root / name
-    if not os.path.isfile(file):
-        raise ImportRefused(f"there is no file {name}", "mesh")
-    return [file, *(included_files(file) if kind_of(file) == DECK else [])]
-
-
-def kind_of(file: Path) -> str:
-    """How a mesh file is read, one of SUFFIXES: DECK where its text is Abaqus's, else its ending; ImportRefused for others."""
-    if is_deck(file):
-        return DECK
-    suffix = file.suffix.lower()
-    if suffix not in SUFFIXES:
-        raise ImportRefused(
-            f"found a file of kind '{suffix}' whose text does not begin with a keyword of Abaqus, such as *NODE; allowed: "
-            f"{', '.join(SUFFIXES)}, and Abaqus text with any ending",
-            "mesh",
-        )
-    return suffix
-
-
-def matrix_files(name: str, root: Path) -> dict[str, Path]:
-    """`M`, `K_<speed>` and `boundary` -> file, in the folder `name` of `root`; ImportRefused where one is missing."""
-    folder = root / name
-    if not os.path.isdir(folder):
-        raise ImportRefused(f"there is no folder {name}", "matrices")
-    ours = (file for file in sorted(folder.glob("*")) if os.path.isfile(file))
-    files = [file for file in ours if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
-    files_of_stem = {file.stem: file for file in files}
-    speeds = [stem for stem in files_of_stem if stem.startswith("K_")]
-    missing = [stem for stem in ("M", "boundary") if stem not in files_of_stem]
-    if missing or len(speeds) != 3 or len(files_of_stem) != len(files):
-        raise ImportRefused(
-            f"{name}: found {', '.join(file.name for file in files) or 'no files'}; needed: M and K_<speed> at three speeds in "
-            "rad/s, one of them 0 (each .mtx or .npz), and boundary.csv",
-            "matrices",
-        )
-    return files_of_stem
-
-
-def digest_of(files: Iterable[Path]) -> str:
-    """Short hash of what the files hold."""
-    digest = hashlib.sha256()
-    for file in files:
-        with open(file, "rb") as stream:
-            digest.update(hashlib.file_digest(stream, "sha256").digest())
-    return digest.hexdigest()[:16]
 
 
 def _plain(number: float) -> str:

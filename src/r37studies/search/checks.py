@@ -15,7 +15,7 @@ from r37core.rom.naming import mode_names
 from r37studies.surrogate.gaussian_processes import SearchPackageMissing, library
 
 from .designs import SearchDesigns, choice_of, designs_of
-from .quantity import FATIGUE_MEASURES, IN_OPERATION
+from .measures import FATIGUE_MEASURES, IN_OPERATION
 from .section import SECTION
 
 

@@ -26,7 +26,8 @@ from r37core.sweep.recipe import STRUCTURES, Recipe, code_of, recipes, structure
 from r37core.time_integration.clearance import NoRoomError
 
 from .designs import NOMINAL, choice_of, designs_of
-from .quantity import MINIMISED, contact_value, static_stress, structure_value
+from .measures import MINIMISED
+from .quantity import contact_value, static_stress, structure_value
 
 _STRUCTURE = ("geometry", CAMPBELL, "contact_model", "stress_operator")
 

@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Field
 from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, plain, refused
 from r37core.config.spread import Bounds, MemberCount, Number, Spreads
 
-from .quantity import MEASURES, MINIMISED, STRUCTURE_MEASURES
+from .measures import MEASURES, MINIMISED, STRUCTURE_MEASURES
 
 OPERATING_MEASURE = "exceedance_integral_operating_rad_s"
 """Measure of a quantity without one, where there is an operating range."""
