@@ -47,9 +47,19 @@ stages = structure_stages(sweep)
 
 
 def stage(name):
-    """Parameters of the rule of a step that Python's single calls do, too: its docstring says what they are (r37core.plans.stages)."""
+    """Parameters of a step that single calls from Python do, too (r37core.plans.stages). The docstring of the step says what they are."""
     made = next(made for made in stages.values() if made.step == name)
     return {**step(made.step, *made.modules), **made.params}
+
+
+more_columns = {table: added(table, sweep) for table in ("summary", "ranking")}
+
+
+def adding(name, table):
+    """Parameters of the rule of a step whose table gets columns from extensions."""
+    functions = {extension: each.function for extension, each in more_columns[table].items()}
+    modules = [function.rpartition(".")[0] for function in functions.values()]
+    return {**step(name, *modules), "added": functions}
 
 
 def shown(file, text, category, figure, subcategory=EVERY_SCENE):

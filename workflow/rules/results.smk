@@ -43,16 +43,6 @@ use rule step as sweep_dataset with:
 datasets = {kind: expand(rules.sweep_dataset.output, kind=kind)[0] for kind in sweep.kinds}
 
 
-more_columns = {table: added(table, sweep) for table in ("summary", "ranking")}
-
-
-def adding(name, table):
-    """Parameters of the rule of a step whose table gets columns from extensions."""
-    functions = {extension: each.function for extension, each in more_columns[table].items()}
-    modules = [function.rpartition(".")[0] for function in functions.values()]
-    return {**step(name, *modules), "added": functions}
-
-
 use rule step as summary with:
     input:
         **datasets,
