@@ -437,6 +437,13 @@ def test_the_flexibility_of_all_modes_is_the_limit_of_their_sum(ring):
     assert number < 3 or flexibility_of(casing_of(ring, number - 1).modes) < 0.5 * flexibility(ring)
 
 
+def test_the_lowest_critical_speed_is_that_of_a_beam_on_a_foundation():
+    ring = replace(STEEL, radial_foundation=1e8, tangential_foundation=0.0, highest_nodal_diameter=100)
+    bending, mass = ring.elastic_modulus * ring.width * ring.thickness**3 / 12.0, ring.density * ring.width * ring.thickness
+    expected = (4.0 * 1e8 * bending / mass**2) ** 0.25 / ring.radius
+    assert critical_speed(ring.modes()) == pytest.approx(expected, rel=5e-3)
+
+
 def test_a_ring_of_the_configuration():
     free = checked_scene({"casing": {"clearance_m": 3e-4, "ring": RING}}).casing.ring
     assert [mode.nodal_diameter for mode in free] == [0, *range(2, 21)]
