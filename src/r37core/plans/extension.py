@@ -23,7 +23,7 @@ class AddedColumns:
     """Columns that an extension adds to a table of the pipeline.
 
     `table`: summary or ranking; `file`: that one of the extension's targets from which they are made.
-    `function`: as `folder.module.function`, of the table and the path of that file, that gives the table with the `columns`.
+    `function`: as `package.module.function`, of the table and the path of that file, that gives the table with the `columns`.
     """
 
     table: Literal["summary", "ranking"]
@@ -37,8 +37,8 @@ class Panel:
     """Panel of an extension in the explorer of a run that has its table.
 
     `table`: that one file among the targets; `shown`: whether a run that makes it has the panel.
-    `contents`: function of what it holds, as `folder.module.function`, that gives what JSON can carry.
-    `program`: file of this package that draws it (`explorer/panels.js`).
+    `contents`: function of what it holds, as `package.module.function`, that gives what JSON can carry.
+    `program`: file in `src` that draws it (`explorer/panels.js`).
     """
 
     table: str
@@ -52,7 +52,7 @@ class Figure:
     """Figure, from which its rule, its targets and its entry in the report follow.
 
     `rule`: name of its rule; `name`: of its files, with wildcards in braces; `runs`: these wildcards.
-    `draw`: function, as `folder.module.function`, that takes what the `files` hold and `arguments`, which may be functions of
+    `draw`: function, as `package.module.function`, that takes what the `files` hold and `arguments`, which may be functions of
     wildcards; of title, blade, scene and family those that it names.
     `files`: a pattern each, or a function of the plan and the wildcards, which gives an empty list for none.
     `label`: name in the report; `caption`: what is seen, with names (blade, scene, family) in braces.
@@ -88,7 +88,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Extension:
-    """One capability: a folder of this package, a file of rules, and a line in the registry.
+    """One capability: a folder of r37studies, a file of rules, and a line in its registry.
 
     `name`: of the folder, of the rule that makes all of it, and of its section of config.yaml. A folder may have `EXTENSIONS`
     in place of one, each with a name of its own, which share its file of rules.
@@ -103,7 +103,7 @@ class Extension:
     `remarks`: what a run should say of it before it starts.
     `figures`: what is drawn of them, made with the targets.
     `panel`: what the explorer shows of it.
-    `closing`: function of the folder of the results, as `folder.module.function`, that says in a line what was found; without
+    `closing`: function of the folder of the results, as `package.module.function`, that says in a line what was found; without
     one, how many files were made is said.
     `look_at`: file or folder that a run names first when it ends, as a pattern without wildcards but `<results>`; without one
     the first page, else picture, else table among the targets.

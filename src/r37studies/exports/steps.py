@@ -46,7 +46,7 @@ def modes(input: Any, output: Any, params: Any) -> None:
 def stress(input: Any, output: Any, params: Any) -> None:
     """Write the worst stress. Inputs: mesh, model, speeds. Output: folder.
 
-    Params: choice, speeds, only_worst, material, orientation.
+    Params: speeds, only_worst, material, orientation.
     """
     model, material = read_reduced_model(input.model), from_plain(Material, params.material)
     operator = stress_operator(model, material)

@@ -56,7 +56,6 @@ use rule step as exported_stress with:
         "<logs>/exports/{blade}_stress_{scene}.log",
     params:
         **step("r37studies.exports.steps.stress"),
-        choice=exported.choice,
         speeds=sweep.speeds,
         only_worst=exported.only_worst,
         material=sweep.elastic,
