@@ -21,6 +21,7 @@ from r37studies.requirements import looks as further_runs
 from r37studies.requirements.choice import Requirements
 from r37studies.requirements.evidence import HALF_FRICTION, Evidence, beyond_model
 from r37studies.requirements.judging import (
+    BRIEF_RISE,
     DOWN,
     FAILS,
     FAST_RISE,
@@ -105,7 +106,7 @@ def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_b
     rising = replace(LINED, casing=replace(LINED.casing, rise_revolutions=LINED.casing.rise_fraction * CHOICE.revolutions))
     friction, damped, casing = rising.friction, (replace(rising, damping_ratio=ratio) for ratio in (0.0, 0.5)), rising.casing
     factors = {MORE_FRICTION: 1.01, LESS_FRICTION: 0.99, SLIGHTLY_MORE_FRICTION: 1.001}
-    rises = {FAST_RISE: 0.6, SLOW_RISE: 12.0, SLOWEST_RISE: 8.0}
+    rises = {FAST_RISE: 0.6, BRIEF_RISE: 4.0, SLOW_RISE: 12.0, SLOWEST_RISE: 8.0}
     scenes = {REST: rising, HALF_STEP: rising} | dict(zip((LOWEST_DAMPING, HIGHEST_DAMPING), damped, strict=True))
     for look, factor in factors.items():
         scenes[look] = replace(rising, friction=replace(friction, coefficient=factor * friction.coefficient))
@@ -120,7 +121,7 @@ def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_b
         used[name] = run["used_thickness"].item()
         assert used[name] == row["used_thickness"]
         np.testing.assert_array_equal(run["amplitude"], row["amplitude"])
-    assert len(set(used.values())) == 10
+    assert len(set(used.values())) == 11
 
 
 def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
@@ -227,7 +228,7 @@ def test_nothing_more_is_run_of_what_fails(asked, monkeypatch):
 
 def test_without_friction_only_the_step_is_changed(asked, lined):
     bare = replace(lined, scene=replace(DIRECT, friction=None), results=(), coarser=None)
-    assert tuple(asked(evidence(), blade=bare)) == (REST, SLOW_RISE, SLOWEST_RISE, UP, DOWN, HALF_STEP)
+    assert tuple(asked(evidence(), blade=bare)) == (REST, BRIEF_RISE, SLOW_RISE, SLOWEST_RISE, UP, DOWN, HALF_STEP)
 
 
 SPEEDS, NEAR = 1000.0 + 2.5 * np.arange(4), np.array([0.2, 0.6, 0.61, 0.2])

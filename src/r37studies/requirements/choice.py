@@ -21,8 +21,11 @@ LEAST_STEP = 0.2
 CARRIED_STEP = WIDTH
 """Step (rad/s) between the speeds that a motion is carried through."""
 
-MOST_NEAR, OTHERS = 24, 10
+MOST_NEAR, OTHERS = 24, 11
 """Speeds, those nearest to the limit, that are run in so many other ways: other friction, step, mesh, damping and rise."""
+
+BRIEF = 4
+"""Revolutions of a rise of the lobes that pushes a blade further than both faster and slower ones, on some."""
 
 LONGEST = 1000
 """Most revolutions of a run that ends as it has settled."""

@@ -32,6 +32,7 @@ from .judging import (
     distance_from_operation,
     fails_clearly,
     judge,
+    members_that_meet,
 )
 
 CROSSING, INTERACTION, ABOVE_YIELD, EVER_ABOVE = "crossing", "interaction", "above_yield", "ever_above_yield"
@@ -170,7 +171,7 @@ def certainty(row: pd.Series) -> str:
     if row["scatter"] > 0.0:
         texts.append(f"scatter {row['scatter']:.2g}{_unit(row)}")
     if pd.notna(row["share_of_members"]):
-        texts.append(f"{100.0 * row['share_of_members']:.0f}% of {row['members']:.0f} members meet it")
+        texts.append(members_that_meet(row))
     return f" ({', '.join(texts)})" if texts else ""
 
 
