@@ -475,8 +475,8 @@ def test_a_dwell_begins_in_the_motion_that_it_is_named_after(contact, swept):
 @pytest.mark.parametrize(
     ("section", "message"),
     [
-        ("{ from_rad_s: 1000 }", "second_motions.to_rad_s: found nothing; allowed: to_rad_s or to_rpm"),
-        ("{ to_rpm: 9000 }", "second_motions.from_rad_s: found nothing; allowed: from_rad_s or from_rpm"),
+        ("{ from_rad_s: 1000 }", "second_motions: found from_rad_s alone; allowed: from_rad_s and to_rad_s"),
+        ("{ to_rpm: 9000 }", "second_motions: found to_rpm alone; allowed: from_rad_s and to_rad_s"),
         ("{ from_rad_s: 1000, to_rad_s: 900 }", "second_motions.to_rad_s: found a speed below the lowest one"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, step_rad_s: 5, step_rpm: 5 }", "step_rad_s and step_rpm; allowed: one of them"),
         ("{ from_rad_s: 1000, to_rad_s: 2100 }", "second_motions.to_rad_s: found 2100 rad/s; allowed: up to"),

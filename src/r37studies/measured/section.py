@@ -18,6 +18,8 @@ ASKED = "?"
 class MeasurementSection(Section):
     """A quantity of a blade in a scene as it was measured, one column of a file."""
 
+    refuse_several = (("speed_rad_s", "speed_rpm"),)
+
     file: FileName = Field(description="CSV with a header that has units: `speed_rpm`, `amplitude (um)`")
     blade: Name = Field(description="Blade that is run")
     scene: Name = Field(description="Scene that is run")
@@ -57,8 +59,6 @@ class MeasurementSection(Section):
             raise refused(("statistic",), f"order of {self.quantity}", "another statistic")
         if (self.limit is None) == (self.speed_of == "first_above"):
             raise refused(("limit",), f"{self.speed_of} {'without' if self.limit is None else 'with'} a limit", "both or none")
-        if self.speed_rad_s is not None and self.speed_rpm is not None:
-            raise refused(("speed_rpm",), "speed_rad_s and speed_rpm", "one of them")
 
 
 class MeasurementError(CarriedError):

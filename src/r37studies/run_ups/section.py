@@ -9,7 +9,6 @@ from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, 
 
 from .choice import Crossing, RunUpChoice
 
-_START, _STOP = ("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm")
 _LENGTH = ("rate_rad_s2", "rate_rpm_s", "revolutions")
 Share = Annotated[float, Field(ge=-0.5, le=1)]
 
@@ -26,16 +25,13 @@ class CrossingSection(Section):
 class RunUpEntry(Section):
     """A run-up, or run-down where it ends at the lower speed, of every chosen blade in every chosen scene."""
 
+    one_of = (("from_rad_s", "from_rpm", "crossing"), ("to_rad_s", "to_rpm", "crossing"), _LENGTH)
+
     blades: AllOrNames = Field(default="all", description="Blades of the run-up")
     scenes: AllOrNames = Field(default="all", description="Scenes of the run-up")
     crossing: CrossingSection | LeftOut = Field(default=None, description="Speeds about a crossing, in place of numbers")
 
     def _check(self) -> None:
-        for keys in ((*_START, "crossing"), (*_STOP, "crossing"), _LENGTH):
-            present = [key for key in keys if getattr(self, key) is not None]
-            if len(present) != 1:
-                speed_key = present[1] if present else keys[0]
-                raise refused((speed_key,), " and ".join(present) if present else "nothing", f"one of {', '.join(keys)}")
         choice = self.choice(1)
         if choice.start == choice.stop and self.revolutions is None:
             raise refused((self.key_of_length,), "a rate between equal speeds", "revolutions, for a run at constant speed")

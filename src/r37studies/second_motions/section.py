@@ -10,7 +10,7 @@ from r37core.config.section import AllOrNames, ExtensionSection, Section, Speed,
 
 from .choice import STEP, DwellChoice, SweepChoice
 
-_ENDS = (("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm"))
+_FIRST, _LAST = ("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm")
 
 
 @declared_by(DwellChoice)
@@ -24,20 +24,17 @@ class DwellSection(Section):
 class SecondMotionSection(Section):
     """Sweeps up and down; none without speeds."""
 
+    refuse_several = (_FIRST, _LAST, ("step_rad_s", "step_rpm"))
+
     blades: AllOrNames = Field(default="all", description="Blades that are swept")
     scenes: AllOrNames = Field(default="all", description="Scenes that are swept; by default those without a rotor")
     dwell: DwellSection = Field(default=DwellSection(), description="Dwells at speeds at which motions differ")
 
     def _check(self) -> None:
-        ends = [[key for key in keys if getattr(self, key) is not None] for keys in _ENDS]
         changed = any(getattr(self, key) != field.default for key, field in type(self).model_fields.items())
-        if changed and not any(ends):
-            raise refused((), "no speeds", "from_rad_s and to_rad_s, or from_rpm and to_rpm")
-        for keys, present in zip(_ENDS, ends, strict=True):
-            if len(present) != 1 and any(ends):
-                raise refused((present[1] if present else keys[0],), " and ".join(present) or "nothing", f"{' or '.join(keys)}")
-        if self.step_rad_s is not None and self.step_rpm is not None:
-            raise refused(("step_rpm",), "step_rad_s and step_rpm", "one of them")
+        if changed and len(self.end_keys) < 2:
+            found = f"{self.end_keys[0]} alone" if self.asked else "no speeds"
+            raise refused((), found, "from_rad_s and to_rad_s, or from_rpm and to_rpm")
         if self.asked and self.sweep().last < self.sweep().first:
             allowed = "a higher one; both sweeps go through the same speeds"
             raise refused((self.end_keys[1],), "a speed below the lowest one", allowed)
@@ -50,7 +47,7 @@ class SecondMotionSection(Section):
     @property
     def end_keys(self) -> list[str]:
         """Keys of the lowest and of the highest speed."""
-        return [key for keys in _ENDS for key in keys if getattr(self, key) is not None]
+        return [key for key in _FIRST + _LAST if getattr(self, key) is not None]
 
     def sweep(self) -> SweepChoice:
         """The sweeps that are asked for."""

@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field
 from r37core.config import si_fields
 from r37core.config.blade_sections import Degrees, GaugeEntry
 from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Rpm, Section, Unique, refused
-from r37core.config.speed_section import refuse_both_units, word_or_speeds
+from r37core.config.speed_section import word_or_speeds
 
 SignalSpeeds: Any = word_or_speeds("interactions")
 
@@ -21,6 +21,8 @@ def _each_probe_once(probes: list[float]) -> list[float]:
 
 class SignalSection(Section):
     """Kept signals; without speeds those of imported blades alone."""
+
+    refuse_several = (("speeds_rad_s", "speeds_rpm"),)
 
     imported: bool = Field(
         default=True, description="Signals of imported blades at the speeds of interactions, where no speeds are named"
@@ -39,8 +41,6 @@ class SignalSection(Section):
     )
 
     def _check(self) -> None:
-        if self.speeds_rad_s is not None and self.speeds_rpm is not None:
-            refuse_both_units("speeds_rad_s", "speeds_rpm")
         for key in ("gauges", "probes_deg"):
             if getattr(self, key) and self.speeds() is None:
                 raise refused((key,), f"{key} without speeds", "speeds_rad_s beside them")
