@@ -5,13 +5,13 @@ from scipy.interpolate import CubicSpline
 
 
 def arrival_times(
-    times: np.ndarray, tangential: np.ndarray, radius: float, speed: float, ahead: np.ndarray, turns: np.ndarray
+    times: np.ndarray, tangential: np.ndarray, point: np.ndarray, speed: float, probes: np.ndarray, turns: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Arrivals (s) at probes in the casing in each of the revolutions `turns`, and those of a rigid blade.
+    """Arrivals (s) at probes in the casing in each of the revolutions `turns`, and the displacements (m) that they tell.
 
     Both of shape (probes, turns). `times` (s) and `tangential` displacement (m, towards growing theta), shape (samples,), of
-    a tip point at `radius` (m), which at rest is `ahead` of the probes, theta - p (rad), shape (probes,); `turns` count from 1;
-    `speed` in rad/s. A tip that swings back over a probe counts when it first comes. NaN where the samples do not reach.
+    a tip `point` (m), shape (3,); angles of the `probes` (rad), shape (probes,); `turns` count from 1; `speed` in rad/s. A tip
+    that swings back over a probe counts when it first comes. NaN where the samples do not reach.
 
     The tip at angle theta + u/R in the frame of the rotor, which turns towards negative theta, is at theta + u/R - Omega t in
     the casing's. It passes a probe at angle p when that is p, up to whole turns:
@@ -22,11 +22,13 @@ def arrival_times(
     Imregun, A survey of blade tip-timing measurement techniques for turbomachinery vibration, J. Eng. Gas Turbines Power 120
     (1998) 784-791.
     """
-    rigid = ((ahead % (2.0 * np.pi))[:, None] + 2.0 * np.pi * (turns - 1)) / speed
+    x, y, _ = point
+    radius = np.hypot(x, y)
+    rigid = (((np.arctan2(y, x) - probes) % (2.0 * np.pi))[:, None] + 2.0 * np.pi * (turns - 1)) / speed
     arrivals = np.full(rigid.shape, np.nan)
     known = np.isfinite(tangential)
     if np.count_nonzero(known) < 4:
-        return arrivals, rigid
+        return arrivals, arrivals
     times, tangential = times[known], tangential[known]
     displacement = CubicSpline(times, tangential)
     # how far the tip has turned; what it reached once, however it swings
@@ -42,4 +44,4 @@ def arrival_times(
         there = speed * middle - displacement(middle) / radius >= wanted[inside]
         early, late = np.where(there, early, middle), np.where(there, middle, late)
     arrivals[inside] = late
-    return arrivals, rigid
+    return arrivals, radius * speed * (arrivals - rigid)

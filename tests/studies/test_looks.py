@@ -15,6 +15,7 @@ from r37core.stress.recovery import stress_operators
 from r37core.stress.statistic import UNKNOWN
 from r37core.sweep.parts import Parts
 from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
 from r37studies.requirements import looks as further_runs
@@ -59,7 +60,8 @@ def lined(contact, monkeypatch, tmp_path):
     """A lined blade whose runs end after 20 revolutions at the latest."""
     monkeypatch.setattr(further_runs, "LONGEST", 20)
     monkeypatch.setattr(further_runs, "PUBLISHED_REVOLUTIONS", CHOICE.revolutions)
-    blade = JudgedBlade(contact, LINED, CHOICE, RESULTS, KEPT, 1e9, UNKNOWN, Parts(tmp_path / "runs", "lined"))
+    material = {"yield_stress": 1e9, "strengths": UNKNOWN}
+    blade = JudgedBlade(contact, LINED, CHOICE, RESULTS, KEPT, parts=Parts(tmp_path / "runs", "lined"), **material)
     return replace(blade, coarser=replace(blade, parts=Parts(tmp_path / "coarser", "lined")))
 
 
@@ -131,8 +133,8 @@ def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
     files = sorted(tmp_path.glob("speed_*.npz"))
     for file in files[::3]:
         file.unlink()
-    run, done = further_runs.Simulation.run, []
-    monkeypatch.setattr(further_runs.Simulation, "run", lambda self, *of: done.append(1) or run(self, *of))
+    run, done = Simulation.run, []
+    monkeypatch.setattr(Simulation, "run", lambda self, *of: done.append(1) or run(self, *of))
     again = dict(looks_of(kept, NEEDS, few))
     assert len(done) == len(files[::3])
     for name, runs in expected.items():

@@ -48,7 +48,7 @@ LINED = replace(ABRADABLE, lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_wid
 
 
 def sweep_of(model, motion, scene=GROWING, sweep=SWEEP, choice=CHOICE):
-    return CarriedSweep(model, scene, choice, sweep, motion, (), KEPT)
+    return CarriedSweep(model, scene, choice, (), KEPT, sweep=sweep, motion=motion)
 
 
 def states_of(model, folder, scene=GROWING, sweep=SWEEP, choice=CHOICE):

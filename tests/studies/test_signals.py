@@ -15,9 +15,10 @@ from r37core.stress.gauge import Gauge
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
+from r37studies.blade_runs import BladeRuns
 from r37studies.gauges import gauge_rows
 from r37studies.signals.dataset import signals_dataset
-from r37studies.signals.record import Record, record_signals
+from r37studies.signals.record import record_signals
 from r37studies.tip_timing import arrival_times
 
 
@@ -76,15 +77,15 @@ def test_arrivals_of_a_harmonic_motion():
         return amplitude * np.sin(pulsation * t + lag)
 
     probes, turns = np.radians([0.0, 77.0, 200.0, 359.0]), np.arange(1, 11)
-    arrived, rigid = arrival_times(times, u(times), radius, SPEED, theta - probes, turns)
-    late = arrived - rigid
+    point = radius * np.array([np.cos(theta), np.sin(theta), 0.0])
+    arrived, told = arrival_times(times, u(times), point, SPEED, probes, turns)
     for i, probe in enumerate(probes):
         for j, turn in enumerate(turns):
             angle = (theta - probe) % (2.0 * np.pi) + 2.0 * np.pi * (turn - 1)
             exact = brentq(lambda t, angle=angle: SPEED * t - u(t) / radius - angle, angle / SPEED - 1e-4, angle / SPEED + 1e-4)
             if times[1] < exact < times[-1]:
                 assert arrived[i, j] == pytest.approx(exact, abs=1e-10)
-                assert radius * SPEED * late[i, j] == pytest.approx(u(exact), abs=1e-7)
+                assert told[i, j] == pytest.approx(u(exact), abs=1e-7)
     assert np.isfinite(arrived).sum() >= 38
 
 
@@ -93,7 +94,7 @@ def test_a_tip_that_comes_back_counts_when_it_first_comes():
     times = np.linspace(0.0, 2.0 * np.pi / SPEED, 2000)
     motion = 0.05 * np.sin(12.0 * SPEED * times)
     wanted = 10.0 * np.pi / 12.0
-    arrived, _ = arrival_times(times, motion, 0.25, SPEED, np.array([wanted]), np.array([1, 2]))
+    arrived, _ = arrival_times(times, motion, np.array([0.25, 0.0, 0.0]), SPEED, np.array([-wanted]), np.array([1, 2]))
     turned = SPEED * times - motion / 0.25
     assert np.sum(np.diff(np.sign(turned - wanted)) != 0) == 3
     assert arrived[0, 0] == pytest.approx(times[np.argmax(turned >= wanted)], abs=times[1])
@@ -110,50 +111,49 @@ def test_a_record_is_the_run_of_the_sweep(contact, scene, model):
     choice = IntegrationChoice(4e-7, 4, 62, "exact_modal", snapshots_per_revolution=31, snapshot_revolutions=1)
     run = run_speed(contact, 1200.0, scene, choice, ("stress",), spectrum_highest_order=10, wear_angles=60)
     rows = np.eye(model.size)[:2]
-    record = record_signals(contact, 1200.0, scene, choice, rows, 4)
+    record = record_signals(BladeRuns(contact, scene, choice), 1200.0, rows, 4)
     for name in ("normal", "tangential"):
-        motion = getattr(record, name)
-        rms = np.sqrt(np.mean(motion[2 * 62 :] ** 2, axis=0))
+        rms = np.sqrt(np.mean(record[name].T[2 * 62 :] ** 2, axis=0))
         np.testing.assert_array_equal(rms, run[f"rms_{name}"])
-    np.testing.assert_array_equal(np.abs(record.normal[-62:]).max(axis=0), run["revolution_maximum"][-1])
+    np.testing.assert_array_equal(np.abs(record["normal"][:, -62:]).max(axis=1), run["revolution_maximum"][-1])
     # a row of one reduced coordinate is that coordinate of the snapshots
-    np.testing.assert_allclose(record.strain[-62:][1::2], run["snapshots"][:, :2], rtol=1e-6, atol=1e-18)
+    np.testing.assert_allclose(record["strain"].T[-62:][1::2], run["snapshots"][:, :2], rtol=1e-6, atol=1e-18)
     # of the last three revolutions
-    bare = record_signals(contact, 1200.0, scene, choice, np.empty((0, model.size)), 3)
-    np.testing.assert_array_equal(bare.normal, record.normal[62:])
-    assert bare.strain.shape == (3 * 62, 0) and record.status is RunStatus.COMPLETED
-    np.testing.assert_allclose(bare.turn, 1.0 + np.arange(1, 3 * 62 + 1) / 62)
+    bare = record_signals(BladeRuns(contact, scene, choice), 1200.0, np.empty((0, model.size)), 3)
+    np.testing.assert_array_equal(bare["normal"], record["normal"][:, 62:])
+    assert bare["strain"].shape == (0, 3 * 62) and record["status"] == RunStatus.COMPLETED
+    np.testing.assert_allclose(bare["turn"], 1.0 + np.arange(1, 3 * 62 + 1) / 62)
 
 
 def test_the_contact_force_of_a_record_is_that_of_the_run(contact, scene, model):
     """Its last number is that of the state; in each revolution it presses where the motion has closed the gap."""
     choice = IntegrationChoice(4e-7, 4, 62, "exact_modal")
-    record = record_signals(contact, 1200.0, scene, choice, np.empty((0, model.size)), 4)
+    record = record_signals(BladeRuns(contact, scene, choice), 1200.0, np.empty((0, model.size)), 4)
     simulation = Simulation(contact, 1200.0, scene, choice)
     state, last = simulation.start(), []
     for _ in range(4 * 62):
         simulation.advance_samples(state, 1)
         last.append(-state.contact_force[0].sum())
-    np.testing.assert_allclose(record.contact_force, last, rtol=1e-9, atol=1e-9)
-    assert record.contact_force.min() == 0.0 < record.contact_force.max()
+    np.testing.assert_allclose(record["contact_force"], last, rtol=1e-9, atol=1e-9)
+    assert record["contact_force"].min() == 0.0 < record["contact_force"].max()
     # the casing's own gaps, node by node and step by step
     casing = simulation.problem.casing
     steps = simulation.problem.grid.steps_per_sample * np.array([1, 40, 133, 248])
     nowhere = np.zeros((3, len(casing.tip.theta)))
     gaps = [casing.gaps(casing.clearance, nowhere, int(step), 0.0)[0][0] for step in steps]
-    np.testing.assert_allclose(record.clearance[[0, 39, 132, 247]], gaps, rtol=1e-9)
-    published = record_signals(contact, 1200.0, scene, IntegrationChoice(1e-7, 2, 62), np.empty((0, model.size)), 2)
-    assert np.isnan(published.contact_force).all() and np.isfinite(published.clearance).all()
+    np.testing.assert_allclose(record["clearance"][[0, 39, 132, 247]], gaps, rtol=1e-9)
+    published = record_signals(BladeRuns(contact, scene, IntegrationChoice(1e-7, 2, 62)), 1200.0, np.empty((0, model.size)), 2)
+    assert np.isnan(published["contact_force"]).all() and np.isfinite(published["clearance"]).all()
 
 
 def test_a_divergence_ends_the_record(contact, scene):
     close = replace(scene, divergence_limit=2e-5)
-    record = record_signals(contact, 1200.0, close, IntegrationChoice(4e-7, 4, 62), np.empty((0, 0)), 4)
-    assert record.status is RunStatus.DIVERGED
-    known = np.isfinite(record.normal[:, 0])
+    record = record_signals(BladeRuns(contact, close, IntegrationChoice(4e-7, 4, 62)), 1200.0, np.empty((0, 0)), 4)
+    assert record["status"] == RunStatus.DIVERGED
+    known = np.isfinite(record["normal"][0])
     assert 0 < known.sum() < len(known)
     assert not known[known.sum() :].any()
-    assert np.abs(record.normal[known]).max() < 2e-5
+    assert np.abs(record["normal"][:, known]).max() < 2e-5
 
 
 PLACE = np.array([0.2, 0.01, 0.02])
@@ -163,8 +163,9 @@ TIP = RecoveryNodes(np.arange(2), np.array([[0.25, 0.0, 0.0], [0.24, 0.01, 0.03]
 def record_of(turns, gauges=1):
     turn = np.arange(1, turns * 50 + 1) / 50
     wave = 1e-3 * np.sin(2.0 * np.pi * 4.0 * turn)
-    normal, tangential, strain = (np.outer(wave, shares) for shares in ([1, 2], [0.5, 1], np.ones(gauges)))
-    return Record(turn, normal, tangential, strain, 100.0 * np.floor(turn), 1e-4 + wave, RunStatus.COMPLETED)
+    shares = {"normal": [1, 2], "tangential": [0.5, 1], "strain": np.ones(gauges)}
+    record = {name: np.outer(each, wave) for name, each in shares.items()}
+    return record | {"turn": turn, "contact_force": 100.0 * np.floor(turn), "clearance": 1e-4 + wave, "status": 0}
 
 
 def test_dataset_of_a_scene():

@@ -92,12 +92,10 @@ class ObservedBlade:
             direction = DIRECTIONS.index(measurement.quantity.removeprefix("displacement_"))
             return tip[first * per_revolution :, direction], per_revolution
         assert self.tip is not None
-        x, y, _ = self.tip.points[0 if point == 0 else -1]
-        radius, speed = float(np.hypot(x, y)), run.problem.speed
+        speed, tangential = run.problem.speed, tip[:, DIRECTIONS.index("tangential")]
         times = np.arange(1, len(tip) + 1) * 2.0 * np.pi / (per_revolution * speed)
-        ahead, turns = np.array([np.arctan2(y, x) - measurement.probe]), np.arange(first + 1, end + 1)
-        arrived, rigid = arrival_times(times, tip[:, DIRECTIONS.index("tangential")], radius, speed, ahead, turns)
-        displacement = radius * speed * (arrived - rigid)[0]
+        probes, turns = np.array([measurement.probe]), np.arange(first + 1, end + 1)
+        _, displacement = arrival_times(times, tangential, self.tip.points[-point], speed, probes, turns)
         return displacement[np.isfinite(displacement)], 1
 
 

@@ -21,16 +21,13 @@ from r37core.contact.scene import Scene
 from r37core.results.datasets import overlaid
 from r37core.results.response import run_row
 from r37core.results.variables import AXES, OF_ALL_SPEEDS, VARIABLES
-from r37core.rom.contact_model import ContactModel
-from r37core.stress.operator import StressOperators
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
-from r37core.time_integration.carrying import CarriedMotion, resolved_problem
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
 from r37core.time_integration.settling import remaining_drift, window_of
-from r37core.time_integration.simulate import TIP_POINTS, Simulation
+from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
-from r37core.time_integration.speed_run import numbers_of_run
+from r37studies.blade_runs import BladeRuns
 
 from . import judging
 from .choice import BRIEF, CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements
@@ -46,23 +43,17 @@ _FRICTION = {judging.MORE_FRICTION: 1.01, judging.LESS_FRICTION: 0.99, judging.S
 """Factors of the coefficient of friction."""
 
 
-@dataclass(frozen=True, eq=False)
-class JudgedBlade:
-    """A blade's `model` in a `scene`: time integration, `results` and `kept` as run_speed takes them, and its material.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JudgedBlade(BladeRuns):
+    """A blade in a scene; of the operators of the stress it has the one of the region that decides.
 
-    `yield_stress` (Pa); `stress`: operator of the region that decides, by its name, where stress is among the results.
-    `parts`: files of the runs. `coarser`: the blade on a coarser mesh, where there is one.
+    `yield_stress` (Pa) and `strengths` of its material; `parts`: files of the runs. `coarser`: the blade on a coarser mesh,
+    where there is one.
     """
 
-    model: ContactModel
-    scene: Scene
-    choice: IntegrationChoice
-    results: Sequence[str]
-    kept: Mapping[str, Any]
     yield_stress: float
     strengths: Strengths
     parts: Parts
-    stress: StressOperators | None = None
     coarser: Self | None = None
 
     @cached_property
@@ -80,22 +71,14 @@ class JudgedBlade:
     def runs_from_rest(self, speeds: Iterable[float], scene: Scene | None = None, **changes: Any) -> xr.Dataset:
         """Runs from rest at speeds (rad/s), in another scene if it is given, with changes of the long choice."""
         of, choice = scene or self.rising_scene, replace(self.long_choice, **changes)
-        runs = {speed: partial(self._run, of, choice, speed) for speed in speeds}
+        runs = {speed: partial(self.numbers_at, of, choice, speed) for speed in speeds}
         return self._dataset({speed: self.parts.file(speed, (of, choice), run) for speed, run in runs.items()})
 
     def carried(self, speeds: Sequence[float]) -> xr.Dataset:
         """The motion carried on from each speed (rad/s) to the next in an unworn lining, from rest at the first one."""
-        step = resolved_problem(self.model, max(speeds), self.scene, self.choice).choice.time_step
-        scene, choice = self.scene.grown, replace(self.long_choice, time_step=step)
-        files = self.parts.carried(speeds, (scene, choice), partial(self._run, scene, choice))
+        scene, choice = self.scene.grown, self.stepped_up_to(max(speeds), self.long_choice)
+        files = self.parts.carried(speeds, (scene, choice), partial(self.numbers_at, scene, choice))
         return self._dataset(dict(zip(speeds, files, strict=True)))
-
-    def _run(
-        self, scene: Scene, choice: IntegrationChoice, speed: float, motion: CarriedMotion | None = None
-    ) -> dict[str, np.ndarray]:
-        """Numbers of a run, which may begin in a motion."""
-        run = Simulation(self.model, speed, scene, choice).run(motion)
-        return numbers_of_run(run, self.results, stress=self.stress, **self.kept)
 
     def _row(self, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
         row = run_row(numbers, self.yield_stress, self.strengths)

@@ -10,7 +10,6 @@ import xarray as xr
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
-from r37core.contact.scene import Scene
 from r37core.fem.assembly import mesh_volume
 from r37core.fem.material import Material
 from r37core.machine_code.kept import content_digest
@@ -21,11 +20,9 @@ from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table, write_table
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.stress.operator import read_stress_operators
 from r37core.stress.recovery import stress_operator
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37studies.agreement import disagreements
 
 from .choice import Requirements
@@ -44,17 +41,9 @@ def look(input: Any, output: Any, params: Any) -> None:
     """
     files = [input.model, *([input.stress] if hasattr(input, "stress") else [])]
     made_of = [params.code, params.results, params.kept, *map(content_digest, files)]
-    blade = JudgedBlade(
-        read_contact_model(input.model),
-        from_plain(Scene, params.scene),
-        from_plain(IntegrationChoice, params.choice),
-        params.results,
-        params.kept,
-        params.yield_stress,
-        from_plain(Strengths, params.strengths),
-        Parts(Path(output.looks).with_suffix(""), made_of),
-        dict([next(iter(read_stress_operators(input.stress).items()))]) if hasattr(input, "stress") else None,
-    )
+    parts, strengths = Parts(Path(output.looks).with_suffix(""), made_of), from_plain(Strengths, params.strengths)
+    blade = JudgedBlade.read(input, params, yield_stress=params.yield_stress, strengths=strengths, parts=parts)
+    blade = replace(blade, stress=blade.stress and dict([*blade.stress.items()][:1]))
     if hasattr(input, "coarser_contact") and Path(input.coarser_contact).stat().st_size:
         made_of += [content_digest(file) for file in (input.coarser_contact, input.coarser_rom)]
         parts, material = Parts(blade.parts.folder / "coarser", made_of), from_plain(Material, params.material)

@@ -5,13 +5,11 @@ from typing import Any
 from r37core.base.dataset_file import read_dataset
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
-from r37core.contact.scene import Scene
 from r37core.results.table_file import write_table
-from r37core.rom.contact_model import read_contact_model
-from r37core.stress.operator import judged_operator, read_stress_operators
+from r37core.stress.operator import judged_operator
 from r37core.stress.statistic import Strengths
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import write_speed
+from r37studies.blade_runs import BladeRuns
 
 from .choice import RunUpChoice
 from .dataset import VARIABLES, write_run_ups
@@ -25,14 +23,14 @@ def record(input: Any, output: Any, params: Any) -> None:
 
     Params: scene, choice, run_up, name, results, highest_order, yield_stress, strengths, provenance.
     """
-    choice = from_plain(IntegrationChoice, params.choice)
+    blade = BladeRuns.read(input, params)
     campbell = read_dataset(input.campbell) if hasattr(input, "campbell") else None
-    run_up = from_plain(RunUpChoice, params.run_up).blade_run_up(choice.samples_per_revolution, campbell, params.name)
+    run_up = from_plain(RunUpChoice, params.run_up).blade_run_up(blade.choice.samples_per_revolution, campbell, params.name)
     result = record_run_up(
-        RunUpIntegration(read_contact_model(input.model), from_plain(Scene, params.scene), choice, run_up),
-        params.results,
+        RunUpIntegration(blade.model, blade.scene, blade.choice, run_up),
+        blade.results,
         highest_order=params.highest_order,
-        stress=judged_operator(read_stress_operators(input.stress)) if hasattr(input, "stress") else None,
+        stress=judged_operator(blade.stress) if blade.stress else None,
         yield_stress=params.yield_stress,
         strengths=from_plain(Strengths, params.strengths),
     )

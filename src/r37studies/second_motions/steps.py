@@ -13,16 +13,12 @@ from r37core.base.io import as_list
 from r37core.base.origin import origin
 from r37core.base.plain import from_plain
 from r37core.base.speeds import exact_text, rounded
-from r37core.contact.scene import Scene
 from r37core.machine_code.kept import content_digest, kept_file
 from r37core.plans.paths import speed_of
 from r37core.results.joining import Along, join_runs
 from r37core.results.response import write_response
 from r37core.results.table_file import write_table
-from r37core.rom.contact_model import ContactModel, read_contact_model
-from r37core.stress.operator import read_stress_operators
 from r37core.stress.statistic import Strengths
-from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import DOWN, MOTIONS, REST, DwellChoice, SweepChoice
 from .dataset import dwell_dataset, pair_motions
@@ -38,12 +34,11 @@ def carry(input: Any, output: Any, params: Any) -> None:
     Inputs: model, stress if needed, runs (of the pipeline, for the motion from rest). Outputs: response (nc), states (npz).
     Params: motion, scene, choice, sweep, results, kept, yield_stress, strengths, provenance, code.
     """
-    stress = read_stress_operators(input.stress) if hasattr(input, "stress") else None
-    run = CarriedSweep(*_swept(input, params), params.motion, params.results, params.kept, stress)
+    run = _swept(input, params, motion=params.motion)
     parts, speeds = Path(f"{output.states}.parts"), run.sweep.speeds
     made_by = [params.motion, params.results, params.kept]
     finished = {rounded(speed_of(file)): Path(file) for file in as_list(input.runs)}
-    files = run.run(parts, [made_by, _made_of(params, input.model, *([input.stress] if stress else []))], finished)
+    files = run.run(parts, [made_by, _made_of(params, input.model, *([input.stress] if run.stress else []))], finished)
     ascending = files[::-1] if params.motion == DOWN else files
     carried = {} if params.motion == REST else {"revolutions": run.carried_choice.revolutions}
     write_response(
@@ -64,7 +59,7 @@ def dwell(input: Any, output: Any, params: Any) -> None:
 
     Params: scene, choice, sweep, dwell, provenance, code. Dwells that were interrupted go on from the next speed.
     """
-    run, states, choice = CarriedSweep(*_swept(input, params)), read_states(input.states), from_plain(DwellChoice, params.dwell)
+    run, states, choice = _swept(input, params), read_states(input.states), from_plain(DwellChoice, params.dwell)
     made_of, parts = [params.dwell, _made_of(params, input.model, *input.states)], Path(f"{output.dwells}.parts")
     parts.mkdir(parents=True, exist_ok=True)
 
@@ -101,9 +96,8 @@ def join(input: Any, output: Any, params: Any) -> None:
     write_table(range_table(read_dataset(output.motions), verdicts), output.ranges, digits=6)
 
 
-def _swept(input: Any, params: Any) -> tuple[ContactModel, Scene, IntegrationChoice, SweepChoice]:
-    scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
-    return read_contact_model(input.model), scene, choice, from_plain(SweepChoice, params.sweep)
+def _swept(input: Any, params: Any, **motion: str) -> CarriedSweep:
+    return CarriedSweep.read(input, params, sweep=from_plain(SweepChoice, params.sweep), **motion)
 
 
 def _made_of(params: Any, *inputs: str) -> list[Any]:

@@ -1,6 +1,7 @@
 """signals.nc: signals of one blade and scene."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,8 +11,6 @@ from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.speed_arrays import STATUS
 from r37studies.tip_timing import arrival_times
-
-from .record import Record
 
 VARIABLES = {
     "normal": Variable(("tip_point", "turn"), "m", "displacement along the casing's normal", "f4"),
@@ -39,13 +38,13 @@ AXES = {
 
 
 def signals_dataset(
-    records: Mapping[float, Record],
+    records: Mapping[float, Mapping[str, Any]],
     names: Mapping[float, str],
     gauges: Mapping[str, np.ndarray],
     probes: Sequence[float],
     tip: RecoveryNodes,
 ) -> xr.Dataset:
-    """The records of one blade and scene by speed (rad/s), with arrivals at `probes` (degrees).
+    """The records (record_signals) of one blade and scene by speed (rad/s), with arrivals at `probes` (degrees).
 
     `names`: interaction at a speed, where it is one; `gauges`: place (m) of each, shape (3,); `tip`: the tip line, from leading
     to trailing edge. All records have the same revolutions. What has no gauge or probe is left out; without records all but
@@ -54,35 +53,19 @@ def signals_dataset(
     speeds = list(records)
     if not speeds:
         return xr.Dataset(coords={"speed": ("speed", np.empty(0))})
-    first = records[speeds[0]]
-    numbers = np.unique(np.ceil(first.turn)).astype(int)
-    arrivals = [_arrivals(record, speed, np.radians(probes), numbers, tip) for speed, record in records.items()]
-    kept = ("normal", "tangential", "strain", "contact_force", "clearance")
-    signals = {name: [getattr(record, name).T for record in records.values()] for name in kept}
-    x, y, _ = tip.points[0]
-    values = signals | {
-        "casing_angle": [np.degrees(np.arctan2(y, x) - 2.0 * np.pi * first.turn) % 360.0] * len(speeds),
-        "gauge_place": [np.array(list(gauges.values())).reshape(-1, 3)] * len(speeds),
-        **dict(zip(("arrival_time", "arrival_displacement"), np.array(arrivals).swapaxes(0, 1), strict=True)),
-        "status": [int(record.status) for record in records.values()],
-        "speed": speeds,
-        "turn": first.turn,
-        "revolution": numbers,
-        "probe": probes,
-    }
+    turn, (x, y, _) = records[speeds[0]]["turn"], tip.points[0]
+    numbers = np.unique(np.ceil(turn)).astype(int)
+    angle = np.degrees(np.arctan2(y, x) - 2.0 * np.pi * turn) % 360.0
+    same = {"casing_angle": angle, "gauge_place": np.array(list(gauges.values())).reshape(-1, 3)}
+    rows = []
+    for speed, record in records.items():
+        times, ends = turn * 2.0 * np.pi / speed, zip(record["tangential"], tip.points[[0, -1]], strict=True)
+        told = np.array([arrival_times(times, *end, speed, np.radians(probes), numbers) for end in ends])
+        rows.append({**same, **record, "arrival_time": told[:, 0], "arrival_displacement": told[:, 1]})
+    values: dict[str, Any] = {name: [row[name] for row in rows] for name in VARIABLES}
+    values |= {"speed": speeds, "turn": turn, "revolution": numbers, "probe": probes}
     labels = {"tip_point": list(TIP_POINTS), "gauge": np.array(list(gauges), dtype=object), "axis": ["x", "y", "z"]}
     dataset = dataset_of(VARIABLES, values, {"speed": SPEED, **AXES}, labels, ("speed",))
     dataset = dataset.assign_coords(interaction=("speed", [names.get(speed, "") for speed in speeds]))
     dataset = dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
     return dataset if gauges else dataset.drop_dims("axis")
-
-
-def _arrivals(record: Record, speed: float, probes: np.ndarray, numbers: np.ndarray, tip: RecoveryNodes) -> np.ndarray:
-    """Arrivals (s) and displacements (m) of both tip points, shape (2, 2, probes, revolutions)."""
-    times = record.turn * 2.0 * np.pi / speed
-    arrivals = []
-    for (x, y, _), tangential in zip(tip.select([0, -1]).points, record.tangential.T, strict=True):
-        radius, theta = float(np.hypot(x, y)), float(np.arctan2(y, x))
-        arrived, rigid = arrival_times(times, tangential, radius, speed, theta - probes, numbers)
-        arrivals.append((arrived, radius * speed * (arrived - rigid)))
-    return np.array(arrivals).swapaxes(0, 1)

@@ -1,46 +1,34 @@
 """The time signals of one run: both ends of the tip, its contact force and strain gauges, at every sample."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from r37core.contact.scene import Scene
-from r37core.rom.contact_model import ContactModel
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS, Simulation
 from r37core.time_integration.status import RunStatus
+from r37studies.blade_runs import BladeRuns
 
 
-@dataclass(frozen=True)
-class Record:
-    """Signals of one run at one speed, NaN from a divergence on.
-
-    `turn`, shape (samples,): time in revolutions since the start; `normal` and `tangential` displacement (m), shape (samples,
-    2), of TIP_POINTS; `strain`, shape (samples, gauges); `contact_force` (N), shape (samples,): normal force on all contact
-    nodes together, NaN without forces at t_n (IntegrationChoice.second_order); `clearance` (m), shape (samples,): from the
-    undeformed leading edge to casing or unworn lining, without a flexible casing's motion; `status`.
-    """
-
-    turn: np.ndarray
-    normal: np.ndarray
-    tangential: np.ndarray
-    strain: np.ndarray
-    contact_force: np.ndarray
-    clearance: np.ndarray
-    status: RunStatus
-
-
-def record_signals(
-    model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice, gauge_rows: np.ndarray, last: int
-) -> Record:
-    """Simulate `speed` (rad/s) as the sweep does, and keep the signals of the `last` revolutions.
+def record_signals(blade: BladeRuns, speed: float, gauge_rows: np.ndarray, last: int) -> dict[str, Any]:
+    """Simulate `speed` (rad/s) as the sweep does, and keep the signals of the `last` revolutions, NaN from a divergence on.
 
     `gauge_rows`, shape (gauges, coordinates): strain per unit of each reduced coordinate. Raises UnstableStepError for a step
-    beyond the stability limit.
+    beyond the stability limit. Returned are, by name:
+
+    - `turn`, shape (samples,): time in revolutions since the start
+    - `normal`, `tangential`: displacement (m) of TIP_POINTS, shape (2, samples)
+    - `strain`, shape (gauges, samples)
+    - `contact_force` (N), shape (samples,): normal force on all contact nodes together, NaN without forces at t_n
+      (IntegrationChoice.second_order)
+    - `clearance` (m), shape (samples,): from the undeformed leading edge to casing or unworn lining, without a flexible
+      casing's motion
+    - `status`: a RunStatus
     """
+    model, choice = blade.model, blade.choice
     per_revolution = choice.samples_per_revolution
     choice = replace(choice, snapshots_per_revolution=per_revolution, snapshot_revolutions=choice.revolutions)
-    simulation = Simulation(model, speed, scene, choice)
+    simulation = Simulation(model, speed, blade.scene, choice)
     # rows of what the states are kept in
     shapes = simulation.problem.contact.state_shapes
     rows = gauge_rows @ model.to_reduced @ shapes if len(gauge_rows) else np.empty((0, shapes.shape[1]))
@@ -62,9 +50,14 @@ def record_signals(
             status = RunStatus.DIVERGED
     recorded = slice(-min(last, choice.revolutions) * per_revolution, None)
     turn = (np.arange(1, len(tip) + 1) / per_revolution)[recorded]
-    normal, tangential = (tip[recorded, :, DIRECTIONS.index(name)] for name in ("normal", "tangential"))
-    clearance = _clearance(simulation, turn)
-    return Record(turn, normal, tangential, strain[recorded], contact_force[recorded], clearance, status)
+    return {
+        "turn": turn,
+        **{name: tip[recorded, :, DIRECTIONS.index(name)].T for name in ("normal", "tangential")},
+        "strain": strain[recorded].T,
+        "contact_force": contact_force[recorded],
+        "clearance": _clearance(simulation, turn),
+        "status": int(status),
+    }
 
 
 def _clearance(simulation: Simulation, turn: np.ndarray) -> np.ndarray:

@@ -4,14 +4,12 @@ from typing import Any
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.plain import from_plain
-from r37core.contact.scene import Scene
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
 from r37core.results.regions import read_judged
-from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.gauge import Gauge
-from r37core.time_integration.integration_choice import IntegrationChoice
+from r37studies.blade_runs import BladeRuns
 from r37studies.gauges import gauge_rows
 
 from .dataset import signals_dataset
@@ -35,9 +33,8 @@ def record(input: Any, output: Any, params: Any) -> None:
         assert whole is not None
         rows, places = gauge_rows(mesh, whole.basis, gauges)
         positions = dict(zip(params.gauges, places, strict=True))
-    model, scene = read_contact_model(input.model), from_plain(Scene, params.scene)
-    choice = from_plain(IntegrationChoice, params.choice)
+    blade = BladeRuns.read(input, params)
     speeds = params.speeds or sorted(named)
-    records = {speed: record_signals(model, speed, scene, choice, rows, params.revolutions) for speed in speeds}
+    records = {speed: record_signals(blade, speed, rows, params.revolutions) for speed in speeds}
     tip = read_reduced_model(input.rom).tip_lines[params.tip_line]
     write_dataset(signals_dataset(records, named, positions, params.probes, tip), output.signals, params.provenance)
