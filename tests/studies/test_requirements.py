@@ -457,8 +457,7 @@ def judged():
     datasets["campbell"] = campbell().expand_dims(blade=["Ref"])
     pairs = [("Ref", "above"), ("Ref", "below")]
     needs = Requirements(above_yield=0.0, mass=0.1)
-    nothing_tried = {"looks": {}, "not_looked": {}, "errors": dict.fromkeys(pairs, 0.0), "point_contact": ()}
-    return verdict_table(pairs, needs, FLOWN, datasets, {"mass": {"Ref": 0.05}}, **nothing_tried), datasets, pairs
+    return verdict_table({pair: {"mass": 0.05} for pair in pairs}, needs, FLOWN, datasets), datasets, pairs
 
 
 def test_the_verdict_of_a_run(judged, tmp_path):
@@ -591,8 +590,7 @@ def test_tables_and_datasets_have_the_further_runs_that_the_verdict_has(lined, t
         write_dataset(dataset, tmp_path / f"{name}.nc")
     files = {name: tmp_path / f"{name}.nc" for name in [*with_campbell, FURTHER_RUNS]}
     pairs, looked = [["Ref", name] for name in scenes], [["Ref", name] for name in scenes[:2]]
-    params = {"pairs": pairs, "looked": looked, "errors": [0.0] * 3, "point_contact": [], "operating": to_plain(FLOWN)}
-    params |= {key: {} for key in ("not_looked", "densities", "clearance", "thickness")}
+    params = {"pairs": pairs, "known": [{}] * 3, "looked": looked, "densities": {}, "operating": to_plain(FLOWN)}
     params["requirements"] = to_plain(Requirements(above_yield=0.0))
     inputs = {name: files[name] for name in with_campbell} | {
         "volumes": [],
@@ -685,10 +683,11 @@ def test_what_moves_no_run_runs_no_further_runs_again(with_requirements):
     assert params({"above_yield_at_most_rad_s": 5.0}) != wanted
 
 
-def test_the_clearance_is_the_smallest_of_a_run_that_changes_it():
+def test_the_clearance_is_the_smallest_of_a_run_that_changes_it(with_requirements):
     changing = replace(DIRECT.casing, clearance=4e-4, change_revolutions=(0.0, 5.0, 9.0), change=(0.0, -1e-4, 5e-5))
-    settings = SimpleNamespace(scenes={"closing": SimpleNamespace(scene=replace(DIRECT, casing=changing))})
-    assert Judged(Sweep(settings)).clearance == {"closing": pytest.approx(3e-4)}
+    settings = with_requirements(operating=RANGE)
+    settings.scenes["direct"] = replace(settings.scenes["direct"], scene=replace(DIRECT, casing=changing))
+    assert Judged(Sweep(settings)).known_of("Ref", "direct")["clearance"] == pytest.approx(3e-4)
 
 
 def test_further_runs_that_take_too_long_are_left_out(with_requirements):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from r37core.config import blades_on_points, contact_of_blades, level_errors, operating_range, plain
+from r37core.config import contact_of_blades, level_errors, operating_range, plain
 from r37core.config.remarks import elastic_casings
 from r37core.config.settings import merged_settings
 from r37core.console.snakemake_run import begin

@@ -7,7 +7,6 @@ from .section import plain
 from .settings import (
     Settings,
     blades_named,
-    blades_on_points,
     checked_scene,
     contact_of_blades,
     level_errors,
@@ -22,7 +21,6 @@ __all__ = [
     "Document",
     "Settings",
     "blades_named",
-    "blades_on_points",
     "checked_scene",
     "command_line_document",
     "contact_of_blades",

@@ -21,6 +21,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.results.datasets import FURTHER_RUNS
 from r37core.results.spectral_lines import modes_of
 from r37core.rom.naming import mode_names
+from r37core.rom.reduction_choice import POINTS
 from r37studies.other_models import MODEL_FILES, ModelChoice, tip_elements
 
 from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
@@ -128,9 +129,7 @@ class Judged:
             # nothing else moves a run
             "requirements": to_plain(settings.section(SECTION).requirements().run_requirements),
             "operating": to_plain(operating and replace(operating, dwell=())),
-            "clearance": lambda wildcards: self.clearance.get(wildcards.scene, nan),
-            "thickness": lambda wildcards: self.thickness.get(wildcards.scene, nan),
-            "error": lambda wildcards: level_errors(settings, [(wildcards.blade, wildcards.scene)])[0],
+            "known": lambda wildcards: self.known_of(wildcards.blade, wildcards.scene),
             "provenance": self.sweep.provenance,
         }
         return Stage("r37studies.requirements.steps.look", params)
@@ -148,18 +147,17 @@ class Judged:
         blades = self.sweep.settings.blades.items()
         return {name: blade.material.density for name, blade in blades if blade.material is not None and not blade.is_matrices}
 
-    @property
-    def clearance(self) -> dict[str, float]:
-        """Clearance (m) of each scene where it is the same at every speed."""
-        casings = {name: chosen.scene.casing for name, chosen in self.sweep.settings.scenes.items()}
+    def known_of(self, blade: str, scene: str) -> dict[str, Any]:
+        """Fields of the Evidence on a blade in a scene that follow from the configuration, as plain values."""
+        settings = self.sweep.settings
+        casing, lining = settings.scenes[scene].scene.casing, settings.linings.get(scene)
         return {
-            name: casing.clearance + least_change(casing) for name, casing in casings.items() if not casing.changes_with_speed
+            "clearance": nan if casing.changes_with_speed else casing.clearance + least_change(casing),
+            "thickness": lining.thickness if lining else nan,
+            "error": level_errors(settings, [(blade, scene)])[0],
+            "point_contact": settings.contact_of(blade) == POINTS,
+            "not_looked": self.not_looked.get(scene, ""),
         }
-
-    @property
-    def thickness(self) -> dict[str, float]:
-        """Thickness (m) of the lining of each scene that has one."""
-        return {name: lining.thickness for name, lining in self.sweep.settings.linings.items()}
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:

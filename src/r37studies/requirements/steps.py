@@ -2,6 +2,7 @@
 
 from contextlib import nullcontext
 from dataclasses import replace
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -36,8 +37,8 @@ def look(input: Any, output: Any, params: Any) -> None:
     """Run what could overturn the verdict on one blade and scene. Inputs: response, model, and stress. Output: looks (nc).
 
     Inputs, of the model on a coarser mesh: coarser_contact and coarser_rom, empty where it cannot have the contact nodes.
-    Params: material, scene, choice, results, kept, yield_stress, strengths, requirements, operating, clearance, thickness,
-    error, provenance.
+    Params: material, scene, choice, results, kept, yield_stress, strengths, requirements, operating, known (Judged.known_of),
+    provenance.
     """
     files = [input.model, *([input.stress] if hasattr(input, "stress") else [])]
     made_of = [params.code, params.results, params.kept, *map(content_digest, files)]
@@ -52,11 +53,7 @@ def look(input: Any, output: Any, params: Any) -> None:
         coarser = replace(blade, model=read_contact_model(input.coarser_contact), parts=parts, stress=operators or None)
         blade = replace(blade, coarser=coarser)
     evidence = Evidence(
-        judged_part(read_judged(input.response)),
-        operating=from_plain(OperatingRange, params.operating),
-        clearance=params.clearance,
-        thickness=params.thickness,
-        error=params.error,
+        judged_part(read_judged(input.response)), operating=from_plain(OperatingRange, params.operating), **params.known
     )
     looks = looks_of(blade, from_plain(Requirements, params.requirements), evidence)
     write_dataset(joined_looks(dict(looks)), output.looks, params.provenance)
@@ -66,9 +63,8 @@ def judge(input: Any, output: Any, params: Any) -> None:
     """Judge each blade and scene. Outputs: verdict (csv), runs (nc): the further ones from rest.
 
     Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members,
-    motions, run_ups and measured. Params: pairs, looked (those of them with looks), not_looked (why others have none),
-    requirements, operating, densities, clearance and thickness by scene, errors (of each pair), point_contact (blades whose
-    contact acts on points).
+    motions, run_ups and measured. Params: pairs, known (Judged.known_of of each), looked (those of them with looks),
+    requirements, operating, densities.
     """
     files = dict(input.items())
     shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)
@@ -83,17 +79,17 @@ def judge(input: Any, output: Any, params: Any) -> None:
     doubted = disagreements(read_table(files.pop("measured"))) if "measured" in files else {}
     looked = zip(map(tuple, params.looked), as_list(files.pop("looks", [])), strict=True)
     looks = {pair: looks_in(read_dataset(file)) for pair, file in looked}
-    numbers = {"clearance": params.clearance, "thickness": params.thickness, "mass": masses}
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
-    pairs = list(map(tuple, params.pairs))
-    doubts = {"looks": looks, "not_looked": params.not_looked, "point_contact": params.point_contact}
-    errors = dict(zip(pairs, params.errors, strict=True))
-    table = verdict_table(pairs, requirements, operating, datasets, numbers, errors=errors, **doubts)
+    known = {
+        pair: {**fields, "mass": masses.get(pair[0], nan), "looks": looks.get(pair, {})}
+        for pair, fields in zip(map(tuple, params.pairs), params.known, strict=True)
+    }
+    table = verdict_table(known, requirements, operating, datasets)
     notes = ((row.note, doubted.get((row.blade, row.scene))) for row in table.itertuples())
     table["note"] = ["; ".join(filter(None, both)) for both in notes]
     write_table(table, output.verdict, digits=6)
-    runs = {pair: looks.get(pair, {}).get(REST, xr.Dataset()) for pair in pairs}
+    runs = {pair: fields["looks"].get(REST, xr.Dataset()) for pair, fields in known.items()}
     join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", {}, nullcontext)
 
 

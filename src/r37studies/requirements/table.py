@@ -53,35 +53,24 @@ OPERATING_COLUMNS = (
 
 
 def verdict_table(
-    pairs: Sequence[tuple[str, str]],
+    known: Mapping[tuple[str, str], Mapping[str, Any]],
     requirements: Requirements,
     operating: OperatingRange,
     datasets: Mapping[str, xr.Dataset],
-    numbers: Mapping[str, Mapping[str, float]],
-    *,
-    looks: Mapping[tuple[str, str], Mapping[str, xr.Dataset]],
-    not_looked: Mapping[str, str],
-    errors: Mapping[tuple[str, str], float],
-    point_contact: Sequence[str],
 ) -> pd.DataFrame:
-    """A row for each requirement of each of the `pairs` of blade and scene: COLUMNS.
+    """A row for each requirement of each blade and scene: COLUMNS.
 
-    `datasets`: campbell, rms and, if there, stress, wear, members and motions. `numbers`: clearance and thickness by scene,
-    mass by blade, of Evidence, where they are known; `run_ups` among the datasets has run-ups by blade and scene. `looks`
-    of each blade and scene (requirements.looks), and why scenes have none; `errors`: relative error of stress and wear by mesh
-    and step, NaN where it is not known; `point_contact`: blades whose contact acts on points.
+    `known`: by blade and scene, fields of Evidence that are not made of the `datasets`: campbell, rms and, if there, stress,
+    wear, members and motions by blade and scene, and run_ups.
     """
     rows = []
-    for blade, scene in pairs:
-        more: dict[str, Any] = {name: _part(datasets.get(name), blade, scene) for name in ("members", "motions")}
-        more |= {name: known.get(blade if name == "mass" else scene, np.nan) for name, known in numbers.items()}
-        more["miner_sum"] = _miner_sum(datasets.get("run_ups"), blade, scene)
+    for (blade, scene), fields in known.items():
+        made: dict[str, Any] = {name: _part(datasets.get(name), blade, scene) for name in ("members", "motions")}
+        made["miner_sum"] = _miner_sum(datasets.get("run_ups"), blade, scene)
         response, campbell = response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade)
-        more |= {"error": errors.get((blade, scene), np.nan), "point_contact": blade in point_contact}
-        evidence = Evidence(response, campbell=campbell, operating=operating, looks=looks.get((blade, scene), {}), **more)
-        failed = fails_clearly(requirements, evidence.replaced(evidence.looks.get(REST, response)))
-        reason = f"few further runs, as {failed[0]} fails" if failed else not_looked.get(scene, "")
-        evidence = replace(evidence, not_looked=reason, fails_elsewhere=bool(failed))
+        evidence = Evidence(response, campbell=campbell, operating=operating, **made, **fields)
+        if failed := fails_clearly(requirements, evidence.replaced(evidence.looks.get(REST, response))):
+            evidence = replace(evidence, not_looked=f"few further runs, as {failed[0]} fails", fails_elsewhere=True)
         rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
     return pd.DataFrame(rows, columns=["blade", "scene", *COLUMNS])
 

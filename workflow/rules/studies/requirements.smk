@@ -37,14 +37,10 @@ use rule step as verdict with:
         **step("r37studies.requirements.steps.judge"),
         pairs=sweep.runs_with("rms"),
         looked=judged.looked,
-        not_looked=judged.not_looked,
-        errors=level_errors(settings, sweep.runs_with("rms")),
-        point_contact=blades_on_points(settings),
+        known=[judged.known_of(*pair) for pair in sweep.runs_with("rms")],
         requirements=judged.requirements,
         operating=operating,
         densities=judged.densities,
-        clearance=judged.clearance,
-        thickness=judged.thickness,
 
 
 use rule step as operating with:
