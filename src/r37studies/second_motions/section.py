@@ -33,8 +33,8 @@ class SecondMotionSection(Section):
     def _check(self) -> None:
         changed = any(getattr(self, key) != field.default for key, field in type(self).model_fields.items())
         if changed and len(self.end_keys) < 2:
-            found = f"{self.end_keys[0]} alone" if self.asked else "no speeds"
-            raise refused((), found, "from_rad_s and to_rad_s, or from_rpm and to_rpm")
+            value = f"{self.end_keys[0]} alone" if self.asked else "no speeds"
+            raise refused((), value, "from_rad_s and to_rad_s, or from_rpm and to_rpm")
         if self.asked and self.sweep().last < self.sweep().first:
             allowed = "a higher one; both sweeps go through the same speeds"
             raise refused((self.end_keys[1],), "a speed below the lowest one", allowed)
