@@ -32,7 +32,7 @@ from r37imports.importing.bulk_data import bulk_cards
 from r37imports.importing.coordinate_systems import GridPoints
 from r37imports.importing.files import SUFFIXES, mesh_files
 from r37imports.importing.import_mesh import _READERS, import_mesh
-from r37imports.importing.meshio_reader import quietly, read_nastran, read_with_meshio
+from r37imports.importing.meshio_reader import quietly, read_med, read_msh, read_nastran
 from r37imports.importing.source import MASS_UNITS, STIFFNESS_UNITS
 from r37imports.placement import warn_of_size
 from r37imports.refusal import MeshWarning
@@ -149,6 +149,47 @@ def test_files_written_by_gmsh(tmp_path, suffix):
     np.testing.assert_allclose(last, [0.26, -0.002, 0.03], atol=1e-9)
 
 
+@pytest.mark.parametrize(("suffix", "version"), [("msh", 2.2), ("msh", 4.0), ("msh", 4.1), ("med", 4.1)])
+def test_a_surface_counts_in_every_group_that_names_it(tmp_path, suffix, version):
+    """Whatever its orientation; equal names are one group, with any letter."""
+    file = tmp_path / f"plate.{suffix}"
+    with quiet_gmsh():
+        halves = [(3, gmsh.model.occ.addBox(start, -2, 200, 15, 4, 60)) for start in (0, 15)]
+        gmsh.model.occ.fragment(halves[:1], halves[1:])
+        gmsh.model.occ.synchronize()
+        places = {tag: gmsh.model.occ.getCenterOfMass(2, tag) for _, tag in gmsh.model.getEntities(2)}
+        feet = sorted((tag for tag, place in places.items() if abs(place[2] - 200.0) < 1e-6), key=lambda tag: places[tag][0])
+        gmsh.model.addPhysicalGroup(3, [1, 2], name="blade")
+        gmsh.model.addPhysicalGroup(2, feet[:1], name="gauges")
+        # gmsh gives a surface that is turned round no name in MED
+        second = feet[1] if suffix == "med" else -feet[1]
+        (tmp_path / "turned.geo").write_text(f'Physical Surface("encastré", 9) = {{{feet[0]}, {second}}};', encoding="utf-8")
+        gmsh.merge(str(tmp_path / "turned.geo"))
+        if suffix == "msh":
+            # MED has no two groups of one name
+            for tag in feet:
+                gmsh.model.addPhysicalGroup(2, [tag], name=f"both{tag}")
+        gmsh.option.setNumber("Mesh.MshFileVersion", version)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 8)
+        gmsh.model.mesh.generate(3)
+        gmsh.write(str(file))
+    if suffix == "msh":
+        # nor would gmsh write two, which other programs do
+        text = re.sub(r'"both\d+"', '"both"', file.read_text(encoding="utf-8"))
+        file.write_text(text, encoding="utf-8")
+    mesh = (read_med if suffix == "med" else read_msh)(file)
+    bottom = np.flatnonzero(mesh.points[:, 2] < 200.0 + 1e-9)
+    left = bottom[mesh.points[bottom, 0] < 15.0 + 1e-9]
+    expected = {"encastré": bottom, "gauges": left} | ({"both": bottom} if suffix == "msh" else {})
+    for name, nodes in expected.items():
+        np.testing.assert_array_equal(mesh.sets[name], nodes)
+    rules = {"orientation": Orientation("mm", rotor_axis=(1, 0, 0), radial=(0, 0, 1), rotation="negative")}
+    rules |= {"tip": Where(limits=(("r", "at_least", 0.26),)), "sense_check": False}
+    assert len(import_mesh(source(file, root=Where(("encastré",)), **rules))[0].node_set("root")) == len(bottom)
+    with refused(r"'gauges' caught \d+ of the \d+ faces that look as its own do: widen it, .* end_check: false"):
+        import_mesh(source(file, root=Where(("gauges",)), **rules))
+
+
 SYSTEMS = """GRDSET,,3
 CORD2R,3,,0.,0.,100.,0.,0.,200.
 ,0.,100.,100.
@@ -243,7 +284,7 @@ def test_bulk_data_as_other_programs_write_it(tmp_path, change):
 def test_meshes_of_gmsh_have_no_set_of_bounding_entities(tmp_path, grouped):
     """meshio has one of a 4.1 file, with gmsh's own numbers of surfaces in it."""
     plate_of_gmsh(tmp_path / "plate.msh", 15, grouped)
-    mesh = read_with_meshio(tmp_path / "plate.msh")
+    mesh = read_msh(tmp_path / "plate.msh")
     assert list(mesh.blocks) == ["tetra10"] and not any("bounding" in name for name in mesh.sets)
     assert ("blade" in mesh.sets) == grouped
 
@@ -384,7 +425,8 @@ def test_all_elements_of_the_other_winding_are_turned(tmp_path, slope):
     mesh = plate()
     mesh = replace(mesh, points=mesh.points + slope * (mesh.points[:, :1] - 0.2) * [0.0, 0.0, 1.0])
     write_mesh(reordered(mesh, ELEMENTS["hexahedron20"].mirrored), tmp_path / "mesh.vtu")
-    again, quality = import_mesh(source("mesh.vtu", minimum_scaled_jacobian=0.0), tmp_path)
+    # so thin that a side looks as the root does
+    again, quality = import_mesh(source("mesh.vtu", minimum_scaled_jacobian=0.0, end_check=not slope), tmp_path)
     assert quality.min() > 0.0 and (quality.min() < 0.1) == (slope > 0.0)
     assert assemble(again, TITANIUM).total_mass == pytest.approx(4400 * 0.06 * 0.004 * 0.03)
 

@@ -145,18 +145,22 @@ def check_end(what: str, where: Where, caught: Caught, end: End | None, points: 
     """Refuse faces, `caught` by `where`, that are not all of the `end` and nothing else.
 
     Without an end that lies on a cone they may be any, but a rule does not cut a smooth patch of the `surface`, of nodes at
-    `points`. A set as the root says what it means: any nodes may be clamped.
+    `points`. A set as the root may clamp any patches, each of them as a whole.
     """
     looks = _LOOKS[what]
     if what == "root" and where.planes:
         end, looks = find_flanks(points, surface), "outward, as flanks"
     straight = end is not None and end.straight
-    if where.sets and (what == "root" or not straight):
+    if where.sets and what == "tip" and not straight:
         return
-    if end is not None and straight:
+    if end is not None and straight and not (where.sets and what == "root"):
         expected, beside = end.mask, (caught.mask & ~end.mask).sum()
     else:
         patch, *_ = _radial_patches(what, points, surface)
+        if where.sets:
+            # flanks, of which a disc holds the root, are planes
+            planes = smooth_patches(surface, area_vectors(surface, points), _PLANAR)
+            patch, looks = np.where(patch >= 0, patch, patch.max() + 1 + planes), "as its own do"
         expected, beside = np.isin(patch, patch[caught.mask & (patch >= 0)]), 0
     whole, within = expected.sum(), (caught.mask & expected).sum()
     if within == whole and not beside:

@@ -16,12 +16,12 @@ from .ends import Caught, caught_by, check_end, check_root, find_end, find_platf
 from .files import kind_of, mesh_files
 from .fitting_entry import fitting_entry
 from .mesh_checks import checked, without_free_nodes
-from .meshio_reader import quietly, read_ansys, read_nastran, read_with_meshio
+from .meshio_reader import quietly, read_ansys, read_med, read_msh, read_nastran, read_with_meshio
 from .raw_mesh import RawMesh
 from .source import MeshSource
 from .tip import TipLines, check_revolution, check_sense, find_tip_lines
 
-_READERS: dict[str, Callable[[Path], RawMesh]] = dict.fromkeys((".msh", ".vtu", ".med"), read_with_meshio)
+_READERS: dict[str, Callable[[Path], RawMesh]] = {".msh": read_msh, ".med": read_med, ".vtu": read_with_meshio}
 _READERS |= {".inp": read_abaqus, ".bdf": read_nastran, ".nas": read_nastran, ".cdb": read_ansys}
 
 

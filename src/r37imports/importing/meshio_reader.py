@@ -1,16 +1,24 @@
-"""Readers of .msh, .vtu, .bdf and .med by meshio, of .cdb by meshlane: one place for what meshio leaves open."""
+"""Readers of .msh, .vtu, .bdf and .med by meshio, of .cdb by meshlane: one place for what meshio leaves open.
+
+An entity counts in every group that names it, and groups of one name are one group.
+"""
 
 import contextlib
 import io
-from collections.abc import Callable, Iterable, Iterator
+import re
+import shutil
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import gmsh
 import meshio
 import numpy as np
 from meshio._mesh import topological_dimension
 
 from r37core.base.io import NO_ROOM
+from r37core.mesh.generate import quiet_gmsh
 from r37imports.refusal import ImportRefused
 
 from .bulk_data import bulk_cards
@@ -27,6 +35,79 @@ _FIELDS = {"CTRIA3": 6, "CQUAD4": 7, "CTRIA6": 9, "CQUAD8": 11}
 def read_with_meshio(file: Path) -> RawMesh:
     """The mesh of a file in a format of meshio."""
     return _raw(meshio.read(file))
+
+
+def read_msh(file: Path) -> RawMesh:
+    """The mesh of a file of gmsh, of version 2.2, 4.0 or 4.1. meshio knows one group of an entity; gmsh knows all of them."""
+    content = file.read_bytes()
+    version = [*content[:40].split(), b"", b""][1]
+    is_old = version.startswith(b"2")
+    # of equal names gmsh and meshio keep one
+    section = content.partition(b"$PhysicalNames")[2].partition(b"$EndPhysicalNames")[0]
+    named = re.findall(rb'(?m)^\s*(\d)\s+(\d+)\s+"(.*)"', section)
+    names = {(int(dimension), int(group)): name.decode(errors="replace") for dimension, group, name in named}
+    with tempfile.TemporaryDirectory() as folder:
+        if version in (b"4", b"4.0"):
+            # version 4.0, which meshio does not read
+            with quiet_gmsh():
+                gmsh.open(str(file))
+                gmsh.write(str(file := Path(folder) / "again.msh"))
+        mesh = meshio.read(file)
+        # before version 4 each element has its group, and one of several groups is there several times
+        field = "gmsh:physical" if is_old else "gmsh:geometrical"
+        groups = list(_groups_of_gmsh(file))
+    numbers = mesh.cell_data.get(field, [np.zeros(len(block.data), dtype=int) for block in mesh.cells])
+    sets = []
+    for dimension, group, entities in groups:
+        wanted = [group] if is_old else entities
+        pairs = zip(mesh.cells, numbers, strict=True)
+        # a group names a surface that is turned round by a negative number
+        parts = [block.data[np.isin(np.abs(of), wanted)].ravel() for block, of in pairs if block.dim == dimension]
+        nodes = np.concatenate([np.empty(0, dtype=int), *parts])
+        sets += [(name, nodes) for name in (f"gmsh:physical={group}", names.get((dimension, group))) if name]
+    mesh.cell_data.pop("gmsh:physical", None)
+    # meshio has numbers of surfaces for cells
+    mesh.cell_sets.clear()
+    return _raw(mesh, sets)
+
+
+def _groups_of_gmsh(file: Path) -> Iterator[tuple[int, int, np.ndarray]]:
+    """Dimension, number and entities of each physical group of a file."""
+    with quiet_gmsh():
+        gmsh.open(str(file))
+        for dimension, group in gmsh.model.getPhysicalGroups():
+            yield dimension, group, np.abs(gmsh.model.getEntitiesForPhysicalGroup(dimension, group))
+
+
+def read_med(file: Path) -> RawMesh:
+    """The mesh of a file of Salome; names of its groups may have any letter, which meshio does not read."""
+    # slow to import, and few meshes come in it
+    import h5py
+
+    with tempfile.TemporaryDirectory() as folder:
+        plain = Path(shutil.copy(file, folder))
+        with h5py.File(plain, "r+") as content:
+            families = content["FAS"][next(iter(content["ENS_MAA"]))]
+            tags = {place: _names_of(families.pop(place)) for place in ("NOEUD", "ELEME") if place in families}
+        mesh = meshio.read(plain)
+    mesh.point_tags, mesh.cell_tags = tags.get("NOEUD", {}), tags.get("ELEME", {})
+    return _raw(mesh)
+
+
+def _names_of(families: Mapping[str, Any]) -> dict[int, list[str]]:
+    """Number of each family -> names of its groups, each of at most 80 bytes in UTF-8 or Latin-1."""
+    names = {}
+    for family in families.values():
+        fields = [np.asarray(name, dtype=np.int8).tobytes().rstrip(b"\0 ") for name in family["GRO"]["NOM"]]
+        names[int(family.attrs["NUM"])] = [_text(field) for field in fields]
+    return names
+
+
+def _text(field: bytes) -> str:
+    try:
+        return field.decode()
+    except UnicodeDecodeError:
+        return field.decode("latin-1")
 
 
 def read_nastran(file: Path) -> RawMesh:
@@ -88,22 +169,27 @@ def quietly(read: Callable[[Path], RawMesh], file: Path) -> RawMesh:
         )
         if "Incompatible cell data 'gmsh:physical'" in str(error):
             cause = "some elements are in no physical group: give all volumes one, or write with Mesh.SaveAll = 0"
-        elif read is read_with_meshio and file.suffix == ".msh":
-            cause = "it is damaged, or has partitions or version 4.0: let gmsh write it with Mesh.MshFileVersion = 2.2"
+        elif read is read_msh:
+            cause = "it is damaged, or has partitions: let gmsh write it with Mesh.MshFileVersion = 2.2"
         reason = " ".join(printed.getvalue().split()) or cause
         raise ImportRefused(f"the reader gave up: {reason}") from None
 
 
-def _raw(mesh: Any) -> RawMesh:
+def _raw(mesh: Any, groups: Iterable[tuple[str, np.ndarray]] = ()) -> RawMesh:
+    """The solids and named sets of a mesh of meshio, and further `groups`: those of one name are one set."""
     blocks = solid_blocks((block.type, block.data) for block in mesh.cells)
     points = np.zeros((len(mesh.points), 3))
     points[:, : np.shape(mesh.points)[1]] = mesh.points
-    sets = {name: np.unique(nodes) for name, nodes in _sets(mesh)}
-    return RawMesh(points, np.arange(1, len(points) + 1), blocks, {name: nodes for name, nodes in sets.items() if len(nodes)})
+    parts: dict[str, list[np.ndarray]] = {}
+    for name, nodes in (*_sets(mesh), *groups):
+        if len(nodes):
+            parts.setdefault(name, []).append(nodes)
+    sets = {name: np.unique(np.concatenate(several)) for name, several in parts.items()}
+    return RawMesh(points, np.arange(1, len(points) + 1), blocks, sets)
 
 
 def _sets(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
-    """Named sets of nodes and of cells (as their nodes), groups of gmsh and MED, and whole-number fields by value.
+    """Named sets of nodes and of cells (as their nodes), groups of MED, and whole-number fields by value.
 
     A field of whole numbers on nodes or cells is a set for each value: `name=value`, and `name` where it only marks nodes.
     """
@@ -122,20 +208,11 @@ def _sets(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
         for number, names in (getattr(mesh, kind, None) or {}).items():
             for name in names:
                 yield name, _nodes_where(fields[kind], number)
-    if "gmsh:physical" in of_cells:
-        for name, (number, dimension) in mesh.field_data.items():
-            of_blocks = zip(mesh.cells, of_cells["gmsh:physical"], strict=True)
-            yield name, _nodes_where([pair for block, pair in of_blocks if block.dim == dimension], number)
-    elif not getattr(mesh, "cell_tags", None):
+    if not getattr(mesh, "cell_tags", None):
         for name, members in mesh.cell_sets.items():
-            # of gmsh's bounding entities meshio has numbers of surfaces, not of cells
-            if name != "gmsh:bounding_entities":
-                parts = [
-                    block[np.asarray(some, dtype=int)].ravel()
-                    for block, some in zip(cells, members, strict=True)
-                    if some is not None
-                ]
-                yield name, np.concatenate([np.empty(0, dtype=int), *parts])
+            chosen = zip(cells, members, strict=True)
+            parts = [block[np.asarray(some, dtype=int)].ravel() for block, some in chosen if some is not None]
+            yield name, np.concatenate([np.empty(0, dtype=int), *parts])
     for name, nodes in mesh.point_sets.items():
         yield name, np.asarray(nodes, dtype=int)
 
