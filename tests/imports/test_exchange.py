@@ -28,6 +28,7 @@ from r37core.mesh.mesh_files import write_vtu
 from r37core.rom.naming import ideal_shapes
 from r37imports.imported_entry import LengthUnit
 from r37imports.importing.abaqus_reader import read_abaqus
+from r37imports.importing.ansys_reader import read_ansys
 from r37imports.importing.bulk_data import bulk_cards
 from r37imports.importing.coordinate_systems import GridPoints
 from r37imports.importing.files import SUFFIXES, mesh_files
@@ -106,6 +107,22 @@ def test_archives_of_ansys(element, tmp_path):
     again, _ = import_mesh(source("mesh.cdb"), tmp_path)
     assert list(again.blocks) == [element]
     assert difference(assemble(again, TITANIUM), assemble(mesh, TITANIUM)) < 1e-8
+
+
+@pytest.mark.parametrize("number", [154, 200, 21, 14])
+def test_elements_of_ansys_that_are_no_solids_are_left_out(number, tmp_path):
+    """Surface effects, meshing facets, masses and springs; solids that nobody reads are refused by their name."""
+    meshlane = pytest.importorskip("meshlane", reason="meshlane (make setup)")
+    meshlane.write(tmp_path / "mesh.cdb", meshlane.Mesh(plate().points, list(plate().blocks.items())), file_format="ansysInp")
+    rows = {154: range(1, 9), 200: range(1, 9), 21: [1], 14: [1, 2]}[number]
+    extra = "".join(f"{field:9}" for field in (1, 2, 1, 1, 0, 0, 0, 0, len(rows), 0, 99, *rows))
+    text = (tmp_path / "mesh.cdb").read_text().replace("ET,1,186", f"ET,1,186\nET,2,{number}")
+    (tmp_path / "mesh.cdb").write_text(text.replace("       -1\nFINISH", f"{extra}\n       -1\nFINISH"))
+    with pytest.warns(MeshWarning, match=rf"elements of the types {number} of Ansys are no solids, and are left out"):
+        assert list(read_ansys(tmp_path / "mesh.cdb").blocks) == ["hexahedron20"]
+    (tmp_path / "mesh.cdb").write_text(text.replace(f"ET,2,{number}", "ETBLOCK,1,1\n(2i9,19a9)\n        2       64\n       -1"))
+    with refused("found elements of type SOLID64; allowed: SOLID185"):
+        read_ansys(tmp_path / "mesh.cdb")
 
 
 def test_archives_of_ansys_need_the_extra_package(tmp_path, monkeypatch):
@@ -462,6 +479,35 @@ def test_an_included_file_is_one_of_the_mesh(tmp_path):
     assert [file.name for file in mesh_files("mesh.inp", tmp_path)] == ["mesh.inp", "more.inp"]
     with refused(r"found no set 'MISSING'; (.|\n)*file: .*EXTRA"):
         import_mesh(source("mesh.inp", root=Where(("MISSING",))), tmp_path)
+
+
+def test_nodes_and_elements_of_a_deck_may_lie_in_files_of_their_own(tmp_path):
+    """Numbers with the exponent of Fortran, too."""
+    whole = read_abaqus(deck(tmp_path))
+    head, nodes, elements, rest = re.split(
+        r"(?m)^(?=\*NODE|\*ELEMENT|\*ELSET|\*NSET|\*SURFACE|\*MATERIAL)", deck(tmp_path).read_text(), maxsplit=3
+    )
+    for name, block in (("nodes", nodes), ("elements", elements)):
+        keyword, _, rows = block.partition("\n")
+        (tmp_path / f"{name}.dat").write_text(re.sub(r"(\d\.\d+)(?=[,\n])", r"\1D+00", rows))
+        head += f"{keyword}, INPUT={name}.dat\n"
+    (tmp_path / "mesh.inp").write_text(head + rest)
+    again = read_abaqus(tmp_path / "mesh.inp")
+    np.testing.assert_array_equal(again.points, whole.points)
+    np.testing.assert_array_equal(again.blocks["hexahedron20"], whole.blocks["hexahedron20"])
+    assert [file.name for file in mesh_files("mesh.inp", tmp_path)] == ["mesh.inp", "nodes.dat", "elements.dat"]
+
+
+@pytest.mark.parametrize("blank", [" ", "0"])
+def test_bulk_data_whose_mid_nodes_are_blank(tmp_path, blank):
+    write_with_gmsh(plate("tetra10"), tmp_path / "mesh.bdf")
+    text = re.sub(r"(?m)^(\+E1     .{8}).{8}", rf"\g<1>{blank:8}", (tmp_path / "mesh.bdf").read_text())
+    (tmp_path / "mesh.bdf").write_text(text)
+    with refused("CTETRA 1: found 9 nodes; allowed: 4 or 10, with all mid-nodes or none"):
+        import_mesh(source("mesh.bdf"), tmp_path)
+    (tmp_path / "mesh.bdf").write_text("INCLUDE 'mesh.blk'\n")
+    with refused("found INCLUDE; write the deck as one file"):
+        import_mesh(source("mesh.bdf"), tmp_path)
 
 
 def test_files_that_cannot_be_read(tmp_path):

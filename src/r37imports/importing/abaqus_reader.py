@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from r37core.fem.elements import ELEMENTS
 from r37imports.refusal import ImportRefused
 
-from .deck_text import deck_lines, keyword_and_options
+from .deck_text import deck_lines, deck_number, keyword_and_options
 from .raw_mesh import RawMesh, solid_blocks
 
 T = TypeVar("T")
@@ -97,7 +97,7 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
     elif keyword == "NODE" and deck.scope == "ASSEMBLY":
         return  # reference points, numbered from 1 once more
     elif keyword == "NODE":
-        nodes = [(int(row[0]), ([float(cell) for cell in row[1:] if cell] + [0.0] * 3)[:3]) for row in rows]
+        nodes = [(int(row[0]), ([deck_number(cell) for cell in row[1:] if cell] + [0.0] * 3)[:3]) for row in rows]
         _define(deck.points, "node", nodes)
         _add(deck.node_sets, options.get("NSET"), [int(row[0]) for row in rows])
     elif keyword == "ELEMENT":
@@ -117,7 +117,7 @@ def _placed(deck: _Deck, points: np.ndarray) -> np.ndarray:
     """The points where the deck's instance stands: shifted, then turned about an axis (Abaqus, *INSTANCE)."""
     for name, rows in deck.components.get("INSTANCE", []):
         try:
-            shift, *turn = [np.array([float(cell) for cell in row if cell]) for row in rows] or [np.zeros(3)]
+            shift, *turn = [np.array([deck_number(cell) for cell in row if cell]) for row in rows] or [np.zeros(3)]
             points = points + shift
             for numbers in turn:
                 first, along, degrees = numbers[:3], numbers[3:6] - numbers[:3], numbers[6]

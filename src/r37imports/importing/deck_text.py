@@ -23,6 +23,11 @@ def is_deck(file: Path) -> bool:
     return bool(re.match(r"\*[A-Za-z]", first)) and not first.upper().startswith("*KEYWORD")
 
 
+def deck_number(cell: str) -> float:
+    """A number of a deck, whose exponent may follow a D as in Fortran. Raises ValueError for other texts."""
+    return float(re.sub("[dD]", "e", cell))
+
+
 def keyword_and_options(line: str) -> tuple[str, dict[str, str]]:
     """Keyword, "" of a line of data, and options of `*KEYWORD, OPTION=value, ...`; keyword and names of options in capitals."""
     if not line.startswith("*"):
@@ -39,7 +44,8 @@ _DEEPEST = 50
 def deck_lines(deck: Path, files: dict[Path, None] | None = None, above: tuple[Path, ...] = ()) -> Iterator[str]:
     """Lines of a deck and of what it includes, in place: without blanks at their ends, comments and empty ones left out.
 
-    A keyword line and what continues it are one. A file that is included again says the same once more, and is left out.
+    A keyword line and what continues it are one. A file that is included again says the same once more, and is left out; one
+    that holds the data of a keyword (*NODE, INPUT=FILE) is not.
     `files`: takes the included ones in; `above`: those that include this one. Raises ImportRefused for a file that is not
     there, for one that includes itself, and for a long chain of files.
     """
@@ -57,10 +63,11 @@ def deck_lines(deck: Path, files: dict[Path, None] | None = None, above: tuple[P
             if unfinished:
                 continue
             keyword, options = keyword_and_options(line)
-            if keyword != "INCLUDE":
+            called, is_include = options.get("INPUT"), keyword == "INCLUDE"
+            if not is_include:
                 yield line
-                continue
-            called = options.get("INPUT")
+                if not called:
+                    continue
             if not called:
                 raise ImportRefused(
                     f"{deck.name} has a line *INCLUDE that names no file; allowed: *INCLUDE, INPUT=FILE", "mesh"
@@ -70,7 +77,7 @@ def deck_lines(deck: Path, files: dict[Path, None] | None = None, above: tuple[P
                 raise ImportRefused(f"there is no file {called}, which {deck.name} includes", "mesh")
             if file in above:
                 raise ImportRefused(f"{deck.name} includes {file.name}, which includes it; take one *INCLUDE out", "mesh")
-            if file not in files:
+            if file not in files or not is_include:
                 files[file] = None
                 yield from deck_lines(file, files, above)
 

@@ -12,11 +12,12 @@ from r37imports.placement import to_blade, warn_of_size
 from r37imports.refusal import ImportRefused, blamed, kept
 
 from .abaqus_reader import read_abaqus
+from .ansys_reader import read_ansys
 from .ends import Caught, caught_by, check_end, check_root, find_end, find_platform
 from .files import kind_of, mesh_files
 from .fitting_entry import fitting_entry
 from .mesh_checks import checked, without_free_nodes
-from .meshio_reader import quietly, read_ansys, read_med, read_msh, read_nastran, read_with_meshio
+from .meshio_reader import quietly, read_med, read_msh, read_nastran, read_with_meshio
 from .raw_mesh import RawMesh
 from .source import MeshSource
 from .tip import TipLines, check_revolution, check_sense, find_tip_lines

@@ -1,4 +1,4 @@
-"""Readers of .msh, .vtu, .bdf and .med by meshio, of .cdb by meshlane: one place for what meshio leaves open.
+"""Readers of .msh, .vtu, .bdf and .med by meshio: one place for what it leaves open.
 
 An entity counts in every group that names it, and groups of one name are one group.
 """
@@ -34,7 +34,7 @@ _FIELDS = {"CTRIA3": 6, "CQUAD4": 7, "CTRIA6": 9, "CQUAD8": 11}
 
 def read_with_meshio(file: Path) -> RawMesh:
     """The mesh of a file in a format of meshio."""
-    return _raw(meshio.read(file))
+    return raw_mesh(meshio.read(file))
 
 
 def read_msh(file: Path) -> RawMesh:
@@ -68,7 +68,7 @@ def read_msh(file: Path) -> RawMesh:
     mesh.cell_data.pop("gmsh:physical", None)
     # meshio has numbers of surfaces for cells
     mesh.cell_sets.clear()
-    return _raw(mesh, sets)
+    return raw_mesh(mesh, sets)
 
 
 def _groups_of_gmsh(file: Path) -> Iterator[tuple[int, int, np.ndarray]]:
@@ -91,7 +91,7 @@ def read_med(file: Path) -> RawMesh:
             tags = {place: _names_of(families.pop(place)) for place in ("NOEUD", "ELEME") if place in families}
         mesh = meshio.read(plain)
     mesh.point_tags, mesh.cell_tags = tags.get("NOEUD", {}), tags.get("ELEME", {})
-    return _raw(mesh)
+    return raw_mesh(mesh)
 
 
 def _names_of(families: Mapping[str, Any]) -> dict[int, list[str]]:
@@ -113,16 +113,19 @@ def _text(field: bytes) -> str:
 def read_nastran(file: Path) -> RawMesh:
     """The mesh of a bulk data file, in Nastran's basic coordinate system.
 
-    Raises ImportRefused for a file without nodes or without its end, and for coordinate systems that it lacks.
+    Raises ImportRefused for a file without nodes or without its end, for coordinate systems that it lacks, and for solids some
+    of whose mid-nodes are blank.
     """
     cards = list(bulk_cards(file))
     names = {card[0].partition(" ")[0] for card in cards}
+    if "INCLUDE" in names:
+        raise ImportRefused("found INCLUDE; write the deck as one file")
     if lacking := {"GRID", "ENDDATA"} - names:
         raise ImportRefused(
             f"found no {max(lacking)} in its bulk data; the file is empty, cut short, or no deck of Nastran: write it again"
         )
-    if "INCLUDE" in names:
-        raise ImportRefused("found INCLUDE; write the deck as one file")
+    for card in cards:
+        _check_nodes(card)
     grid = GridPoints(cards)
     numbered = zip(grid.labels, grid.positions.tolist(), strict=True)
     points = [["GRID", str(label), "", *map(repr, point)] for label, point in numbered]
@@ -131,20 +134,23 @@ def read_nastran(file: Path) -> RawMesh:
         f"{','.join(card[:9])}" + "".join(f"\n+,{','.join(card[i : i + 8])}" for i in range(9, len(card), 8))
         for card in (["BEGIN BULK"], *points, *(card[: _FIELDS.get(card[0])] for card in cards if card[0] != "GRID"))
     ]
-    return _raw(meshio.nastran.read(io.StringIO("\n".join([*lines, ""]))))
+    return raw_mesh(meshio.nastran.read(io.StringIO("\n".join([*lines, ""]))))
 
 
-def read_ansys(file: Path) -> RawMesh:
-    """The mesh of an Ansys archive (.cdb), by the extra package meshlane."""
-    try:
-        import meshlane
-    except ImportError:
-        raise ImportRefused(
-            "Ansys archives need the extra package meshlane: pip install -e '.[ansys]' in the project's folder"
-        ) from None
-    # titles and names may be in Latin-1
-    text = io.StringIO(file.read_text(encoding="utf-8", errors="replace"))
-    return _raw(meshlane.read(text, "ansysInp"))
+_CORNERS = {"CTETRA": (4, 10), "CPYRAM": (5, 13), "CPENTA": (6, 15), "CHEXA": (8, 20)}
+"""Solids of Nastran: number of their corners, and of all their nodes."""
+
+
+def _check_nodes(card: list[str]) -> None:
+    """Refuse a solid some of whose mid-nodes are blank or 0: Nastran leaves such an edge straight, and without a node."""
+    if (name := card[0]) in _CORNERS:
+        given = [cell.strip("0") != "" for cell in card[3:]]
+        count = max((place for place, is_given in enumerate(given, 1) if is_given), default=0)
+        if not all(given[:count]) or count not in _CORNERS[name]:
+            raise ImportRefused(
+                f"{name} {card[1]}: found {sum(given)} nodes; allowed: {' or '.join(map(str, _CORNERS[name]))}, with all "
+                "mid-nodes or none: let the preprocessor fill in the others"
+            )
 
 
 def quietly(read: Callable[[Path], RawMesh], file: Path) -> RawMesh:
@@ -175,7 +181,7 @@ def quietly(read: Callable[[Path], RawMesh], file: Path) -> RawMesh:
         raise ImportRefused(f"the reader gave up: {reason}") from None
 
 
-def _raw(mesh: Any, groups: Iterable[tuple[str, np.ndarray]] = ()) -> RawMesh:
+def raw_mesh(mesh: Any, groups: Iterable[tuple[str, np.ndarray]] = ()) -> RawMesh:
     """The solids and named sets of a mesh of meshio, and further `groups`: those of one name are one set."""
     blocks = solid_blocks((block.type, block.data) for block in mesh.cells)
     points = np.zeros((len(mesh.points), 3))
