@@ -144,11 +144,11 @@ _CORNERS = {"CTETRA": (4, 10), "CPYRAM": (5, 13), "CPENTA": (6, 15), "CHEXA": (8
 def _check_nodes(card: list[str]) -> None:
     """Refuse a solid some of whose mid-nodes are blank or 0: Nastran leaves such an edge straight, and without a node."""
     if (name := card[0]) in _CORNERS:
-        given = [cell.strip("0") != "" for cell in card[3:]]
-        count = max((place for place, is_given in enumerate(given, 1) if is_given), default=0)
-        if not all(given[:count]) or count not in _CORNERS[name]:
+        filled = [cell.strip("0") != "" for cell in card[3:]]
+        count = max((place for place, is_filled in enumerate(filled, 1) if is_filled), default=0)
+        if not all(filled[:count]) or count not in _CORNERS[name]:
             raise ImportRefused(
-                f"{name} {card[1]}: found {sum(given)} nodes; allowed: {' or '.join(map(str, _CORNERS[name]))}, with all "
+                f"{name} {card[1]}: found {sum(filled)} nodes; allowed: {' or '.join(map(str, _CORNERS[name]))}, with all "
                 "mid-nodes or none: let the preprocessor fill in the others"
             )
 
