@@ -21,7 +21,7 @@ from r37imports.sections import placed
 from r37imports.sections.definition import SectionsDefinition
 from r37imports.sections.placed import OWN, Meridians
 from r37imports.sections.section_file import SectionFile, read_meridian, read_section_file
-from r37imports.sections.turbogrid import check_companion, companion_of, meridian_next_to
+from r37imports.sections.turbogrid import UNIT, check_companion, companion_of, meridian_next_to
 
 from .imported_entry import LengthUnit, Oriented
 
@@ -99,7 +99,8 @@ class SectionsEntry(ShapeKeys, Oriented):
         Raises ImportRefused with the key to blame, TextFileError and BladeShapeError of the file of sections, OSError.
         """
         file = root / self.sections
-        content, companion = read_section_file(file), companion_of(file)
+        content = read_section_file(file)
+        companion = companion_of(file) | ({UNIT: content.unit} if content.unit else {})
         orientation, answers = self._orientation(content, companion)
         if check_sense:
             placed.check_axis(content.sections, orientation)
@@ -127,7 +128,7 @@ class SectionsEntry(ShapeKeys, Oriented):
     def _orientation(self, content: SectionFile, companion: Mapping[str, str]) -> tuple[Orientation, dict[str, str]]:
         """Unit and axes, and a line on each key that asks for what fits, which they have then.
 
-        Raises ImportRefused where directions are parallel, no unit fits, or the .inf next to the sections has others.
+        Raises ImportRefused where directions are parallel, no unit fits, or file or .inf next to it have others.
         """
         answers: dict[str, str] = {}
         known = si_form(
@@ -137,7 +138,7 @@ class SectionsEntry(ShapeKeys, Oriented):
             rotation="positive" if self.rotation == ASKED else self.rotation,
         )
         if self.length_unit == ASKED:
-            unit, answers["length_unit"] = placed.fitting_unit(content, known, companion.get("geometry units", "").lower())
+            unit, answers["length_unit"] = placed.fitting_unit(content, known, companion.get(UNIT, "").lower())
             known = replace(known, length_unit=unit)
         check_companion(companion, known)
         if self.rotation == ASKED:

@@ -195,6 +195,7 @@ MERIDIANS = ("inner.curve", "outer.curve")
     [
         ("", ("hub.crv", "shroud.crv")),
         ("", ("R1_hub.curve", "shroud_2.crv")),
+        ("", ("Rot_Hub.curve", "Rot_Shd.curve")),
         (INF, MERIDIANS),
         (INF.replace("inner", r"C:\a\inner").replace("outer", "../a/outer").replace("R1", "a/R1"), MERIDIANS),
     ],
@@ -218,6 +219,25 @@ def test_the_inf_of_turbogrid_is_not_contradicted(settings_with, config_copy, ki
     (config_copy / "sections/BladeGen.inf").write_text(INF)
     with refused(pattern_of(message), ConfigError):
         settings_with(curve_text(fan(), 1e3), "R1_Blade.crv", **yaml.safe_load(changes))
+
+
+def test_a_hub_next_to_a_file_that_may_be_the_shroud_is_a_question(settings_with, config_copy):
+    for name in ("hub.curve", "outer.curve"):
+        (config_copy / "sections" / name).write_text("160 0 -300\n160 0 300\n")
+    with refused(r"found hub\.curve next to the sections, and outer\.curve; give tip: one of them", ConfigError):
+        settings_with(curve_text(fan(), 1e3), "R1_Blade.crv", length_unit="mm")
+
+
+def test_the_unit_of_a_file_is_that_of_the_entry(settings_with):
+    whole = geomturbo_text([1e3 * curve for curve in fan()])
+    text = whole.replace("units 1", "units 0.001")
+    asked = {"length_unit": "?", "rotation": "positive"}
+    expected = settings_with(whole, "fan.geomTurbo", length_unit="mm").blades["Fan"].definition
+    assert settings_with(text, "fan.geomTurbo", length_unit="mm").blades["Fan"].definition.hub == expected.hub
+    with refused("length_unit: mm; by the radii", ConfigError):
+        settings_with(text, "fan.geomTurbo", **asked)
+    with refused(r"length_unit: found m, and mm in the .inf next to the sections, or in their file", ConfigError):
+        settings_with(text, "fan.geomTurbo", length_unit="m")
 
 
 def test_several_meridians_next_to_a_profile_are_a_question(settings_with, config_copy):

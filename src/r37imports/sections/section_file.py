@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.io import TextFileError, read_text
+from r37core.base.units import LENGTH_UNITS
 from r37core.blade.profile import BladeShapeError
 
 from .section_curve import cartesian
@@ -30,11 +31,15 @@ class FileSection:
 
 @dataclass(frozen=True)
 class SectionFile:
-    """Content of a file: sections in its order; points of the meridians of hub and tip, shape (n, 3), or None."""
+    """Content of a file: sections in its order; points of the meridians of hub and tip, shape (n, 3), or None.
+
+    `unit`: the unit of length that the file names, or an empty text.
+    """
 
     sections: tuple[FileSection, ...]
     hub: np.ndarray | None = None
     tip: np.ndarray | None = None
+    unit: str = ""
 
 
 def number_in(text: str, line: int, what: str) -> float:
@@ -160,17 +165,25 @@ def read_geomturbo(text: str) -> SectionFile:
     if len(blades) > 1:
         counted = f"found {len(blades)} blades, with suction sides in lines {', '.join(blades)}"
         raise TextFileError(int(blades[1]), f"{counted}; allowed: one, in a file without the others")
+    unit = ""
     for number, line in lines:
-        name, *factor = line.lower().split()
-        if name in ("units", "units-factor") and factor not in (["1"], ["1.0"]):
-            raise TextFileError(number, f"found {line}; allowed: 1, with coordinates in length_unit; scale them, and write 1")
+        name, *words = line.lower().split()
+        if name not in ("units", "units-factor"):
+            continue
+        factor = number_in(words[0] if words else "", number, name)
+        # many write 1 in any unit
+        fitting = [known for known, metres in LENGTH_UNITS.items() if np.isclose(factor, metres, 1e-6, 0.0)]
+        if not fitting:
+            allowed = ", ".join(f"{metres:g} ({known})" for known, metres in LENGTH_UNITS.items())
+            raise TextFileError(number, f"found {line}; allowed, in metres: {allowed}")
+        unit = "" if factor == 1.0 else fitting[0]
     suction, pressure = (_sections(lines, side) for side in ("suction", "pressure"))
     if len(suction) != len(pressure):
         counted = f"found {len(suction)} sections of the suction and {len(pressure)} of the pressure side"
         raise TextFileError(pressure[0][0], f"{counted}; needed: as many of both")
     pairs = zip(suction, pressure, strict=True)
     sections = tuple(FileSection(joined_sides(side, other), line) for (line, side), (_, other) in pairs)
-    return SectionFile(sections, *(_channel(lines, name) for name in ("hub", "shroud")))
+    return SectionFile(sections, *(_channel(lines, name) for name in ("hub", "shroud")), unit)
 
 
 def _sections(lines: list[Line], side: str) -> list[tuple[int, np.ndarray]]:
