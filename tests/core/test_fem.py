@@ -16,7 +16,7 @@ from r37core.fem.assembly import NodePattern, assemble_stiffness, block_matrix
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.large_displacement import LargeDisplacement
 from r37core.fem.material import Material
-from r37core.fem.matrices import assemble, centrifugal_load, static_displacement
+from r37core.fem.matrices import assemble, centrifugal_load
 from r37core.fem.quadrature import box_rule, tetrahedron_rule, wedge_rule
 from r37core.fem.solver import factorise, lowest_modes
 from r37core.fem.stress import stress_at
@@ -219,7 +219,7 @@ def test_cantilever(kind):
     load = np.zeros_like(mesh.points)
     tip = np.flatnonzero(mesh.parameters[:, 1] == 1.0)
     load[tip, 2] = force / len(tip)
-    deflection = static_displacement(assemble(mesh, SLENDER), load)[tip, 2].mean()
+    deflection = assemble(mesh, SLENDER).displaced_by(load)[tip, 2].mean()
     inertia = side**4 / 12.0
     shear = 1.2 * force * length / (0.5 * 180e9 * side**2)
     assert deflection == pytest.approx(force * length**3 / (3 * 180e9 * inertia) + shear, rel=2e-3)

@@ -44,13 +44,7 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
     Raises BladeShapeError for missing columns, unreadable numbers, spans out of order or not reaching 0 and 100%,
     impossible rows and profiles that cross; TextFileError for a file that is no UTF-8 text.
     """
-    return list(_profiles(read_text(file)))
-
-
-@lru_cache(maxsize=8)
-def _profiles(text: str) -> tuple[ProfileParameters, ...]:
-    """Profiles of a table's text, read once for all designs of a family."""
-    rows = _rows(text, PROFILE_COLUMNS)
+    rows = _rows(read_text(file), tuple(PROFILE_COLUMNS))
     profiles = [ProfileParameters(**{name: _si_cell(row, column) for column, name in PROFILE_COLUMNS.items()}) for row in rows]
     if len(profiles) > 1 and profiles[0].span > profiles[-1].span:
         profiles.reverse()
@@ -60,21 +54,15 @@ def _profiles(text: str) -> tuple[ProfileParameters, ...]:
     for profile in profiles:
         profile.check()
     check_profile_order(profiles)
-    return tuple(profiles)
+    return profiles
 
 
 def stacking_table_rows(file: Path, blade: str) -> list[dict[str, float]]:
     """Rows of one blade, by STACKING_COLUMNS, from a sweep and lean CSV with a column `blade`; BladeShapeError without any."""
-    rows = [row for row in _stacking_rows(read_text(file)) if row["blade"] == blade]
+    rows = [row for row in _rows(read_text(file), STACKING_COLUMNS, ("blade",)) if row["blade"] == blade]
     if not rows:
         raise BladeShapeError(f"no row of the table has '{blade}' in its column 'blade'")
     return [{column: float(row[column]) for column in STACKING_COLUMNS} for row in rows]
-
-
-@lru_cache(maxsize=8)
-def _stacking_rows(text: str) -> tuple[dict, ...]:
-    """Rows of the text of a sweep and lean table, read once for all designs of a family."""
-    return tuple(_rows(text, STACKING_COLUMNS, text_columns=("blade",)))
 
 
 def read_designs(file: Path, kind: str) -> tuple[tuple[str, ...], dict[str, tuple[float, ...]]]:
@@ -83,7 +71,7 @@ def read_designs(file: Path, kind: str) -> tuple[tuple[str, ...], dict[str, tupl
     `kind`: column of the names, blade or scene. Raises BladeShapeError for missing columns, unreadable numbers and a name given
     twice; TextFileError as for others.
     """
-    rows = _rows(read_text(file), None, text_columns=(kind,))
+    rows = _rows(read_text(file), None, (kind,))
     keys = tuple(column for column in rows[0] if column != kind) if rows else ()
     if not keys:
         raise BladeShapeError(
@@ -148,13 +136,14 @@ def check_profile_order(profiles: Sequence[ProfileParameters]) -> None:
                 )
 
 
-def _rows(text: str, number_columns: Iterable[str] | None, text_columns: tuple[str, ...] = ()) -> list[dict]:
-    """Rows by column; without `number_columns` all but the texts are numbers."""
+@lru_cache(maxsize=16)
+def _rows(text: str, number_columns: tuple[str, ...] | None, text_columns: tuple[str, ...] = ()) -> tuple[dict, ...]:
+    """Rows by column; without `number_columns` all but the texts are numbers. Read once for all designs of a family."""
     reader = csv.DictReader(io.StringIO(text, newline=""), strict=True)
     try:
         reader.fieldnames = header = [column.strip() for column in reader.fieldnames or []]
         if number_columns is None:
-            number_columns = [column for column in header if column not in text_columns]
+            number_columns = tuple(column for column in header if column not in text_columns)
         wanted = [*text_columns, *number_columns]
         missing = [column for column in wanted if column not in header]
         if missing:
@@ -165,7 +154,7 @@ def _rows(text: str, number_columns: Iterable[str] | None, text_columns: tuple[s
         twice = [column for column in wanted if header.count(column) > 1]
         if twice:
             raise BladeShapeError(f"line 1: the column {twice[0]} is given twice")
-        return [_row(raw, reader.line_num, number_columns, text_columns) for raw in reader]
+        return tuple(_row(raw, reader.line_num, number_columns, text_columns) for raw in reader)
     except csv.Error as error:
         raise BladeShapeError(f"line {reader.line_num}: not readable as a table separated by commas: {error}") from None
 

@@ -66,6 +66,23 @@ def stiffness_points(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, 
         yield name, gradients, determinant * rule_weights
 
 
+def mass_points(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, np.ndarray, np.ndarray, np.ndarray]]:
+    """Points that integrate the mass of each block, by its name.
+
+    Shape functions there, shape (points, n), determinants of the elements' Jacobians, shape (elements, points), and weights.
+    """
+    for name, element, coordinates in typed_blocks(blocks, points):
+        rule_points, rule_weights = element.mass_rule
+        determinant = np.linalg.det(element.jacobian(coordinates, rule_points))
+        yield name, element.shape_functions(rule_points), determinant, rule_weights
+
+
+def nodal_sums(nodes: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+    """Sums, shape (count, 3), of the `values`, shape (elements, n, 3), that elements have at their `nodes`, (elements, n)."""
+    axes = np.moveaxis(values, 2, 0)
+    return np.stack([np.bincount(nodes.ravel(), weights=part.ravel(), minlength=count) for part in axes], axis=1)
+
+
 def assemble_stiffness(pattern: NodePattern, blocks: Blocks, points: np.ndarray, material: Material) -> np.ndarray:
     """Linear elastic stiffness as 3 x 3 blocks (N/m), shape (pairs, 3, 3).
 
@@ -90,22 +107,15 @@ def assemble_stiffness(pattern: NodePattern, blocks: Blocks, points: np.ndarray,
 def assemble_mass(pattern: NodePattern, blocks: Blocks, points: np.ndarray, density: float) -> np.ndarray:
     """Consistent mass of each node pair (kg), shape (pairs,); the matrix is this times the 3 x 3 identity."""
     mass = np.zeros(len(pattern.indices))
-    for name, element, coordinates in typed_blocks(blocks, points):
-        rule_points, rule_weights = element.mass_rule
-        values = element.shape_functions(rule_points)
-        determinant = np.linalg.det(element.jacobian(coordinates, rule_points))
-        products = np.einsum("qa,qb->qab", values, values).reshape(len(rule_weights), -1)
-        mass += pattern.scatter(name, density * (determinant * rule_weights) @ products)
+    for name, values, determinant, weights in mass_points(blocks, points):
+        products = np.einsum("qa,qb->qab", values, values).reshape(len(weights), -1)
+        mass += pattern.scatter(name, density * (determinant * weights) @ products)
     return mass
 
 
 def mesh_volume(blocks: Blocks, points: np.ndarray) -> float:
     """Volume (m3) of a mesh with nodes at `points`, by the quadrature of the mass."""
-    volume = 0.0
-    for _, element, coordinates in typed_blocks(blocks, points):
-        rule_points, rule_weights = element.mass_rule
-        volume += float(np.sum(np.linalg.det(element.jacobian(coordinates, rule_points)) * rule_weights))
-    return volume
+    return sum(float(np.sum(determinant * weights)) for *_, determinant, weights in mass_points(blocks, points))
 
 
 def block_matrix(pattern_indptr: np.ndarray, pattern_indices: np.ndarray, blocks: np.ndarray) -> sp.csr_array:

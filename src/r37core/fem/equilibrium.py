@@ -45,25 +45,17 @@ class Equilibrium:
 class Rotation:
     """Large displacements of a clamped blade under its rotation. `matrices`: its linear ones, with factors at rest.
 
+    `whole`, `free`: fields of all nodes and of the unclamped degrees of freedom, as the matrices turn one into the other.
     `follows`: whether the centrifugal force grows with the distance from the axis (spin softening).
     """
 
     def __init__(self, solid: LargeDisplacement, matrices: StructuralMatrices, *, follows: bool):
         self._solid, self._matrices = solid, matrices
+        self.whole, self.free = matrices.whole, matrices.free
         self._pattern = NodePattern.build(solid.blocks, len(solid.points))
         self._freedoms = (3 * matrices.free_nodes[:, None] + np.arange(3)).ravel()
         # spin softening is minus the mass of the motion normal to the axis
         self._softening = matrices.spin_softening() if follows else None
-
-    def whole(self, free: np.ndarray) -> np.ndarray:
-        """Displacement of all nodes, shape (nodes, 3), from that of the unclamped degrees of freedom, shape (dofs,)."""
-        displacement = np.zeros_like(self._solid.points)
-        displacement[self._matrices.free_nodes] = free.reshape(-1, 3)
-        return displacement
-
-    def free(self, field: np.ndarray) -> np.ndarray:
-        """The unclamped degrees of freedom, shape (dofs,), of a field of all nodes, shape (nodes, 3)."""
-        return field[self._matrices.free_nodes].ravel()
 
     def tangent(self, displacement: np.ndarray, speed: float) -> sp.csr_array:
         """Tangent stiffness (N/m) of elastic and centrifugal forces between the unclamped degrees of freedom.
@@ -77,7 +69,7 @@ class Rotation:
 
     def residual(self, displacement: np.ndarray, speed: float) -> np.ndarray:
         """Centrifugal less elastic forces (N), shape (dofs,)."""
-        load = speed**2 * self.free(self._matrices.centrifugal_load)
+        load = speed**2 * self._matrices.free_load
         if self._softening is not None:
             load = load - speed**2 * (self._softening @ self.free(displacement))
         return load - self.free(self._solid.forces(displacement))
@@ -110,7 +102,7 @@ class Rotation:
 
     def _series(self, here: Equilibrium, square: float) -> list[np.ndarray]:
         """Terms of the displacement (m) in what is added to a squared speed, from the equilibrium there on."""
-        load = self.free(self._matrices.centrifugal_load)
+        load = self._matrices.free_load
 
         def next_term(n: int, forces: np.ndarray) -> np.ndarray:
             force = (load if n == 1 else 0.0) - self.free(forces)
@@ -126,7 +118,7 @@ class Rotation:
         """The equilibrium at a squared speed near a displacement; None where one tangent finds none, or it is not stable."""
         speed = float(np.sqrt(square))
         solve, last = factorise(self.tangent(displacement, speed)), np.inf
-        load = self.free(self._matrices.centrifugal_load)
+        load = self._matrices.free_load
         # of a stable position the tangent is positive
         if not solve(load) @ load > 0.0:
             return None

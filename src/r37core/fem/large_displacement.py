@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .assembly import Blocks, NodePattern, stiffness_points
+from .assembly import Blocks, NodePattern, nodal_sums, stiffness_points
 from .material import Material
 from .strain import displacement_gradient, green_strain, second_order_strain
 
@@ -144,6 +144,5 @@ class LargeDisplacement:
         for name, (gradients, volumes) in self._gradients.items():
             stress = first_piola(name) * volumes[:, :, None, None]
             nodal = np.einsum("eqij,eqaj->eai", stress, gradients, optimize=True)
-            for i in range(3):
-                forces[:, i] += np.bincount(self.blocks[name].ravel(), weights=nodal[:, :, i].ravel(), minlength=len(forces))
+            forces += nodal_sums(self.blocks[name], nodal, len(forces))
         return forces

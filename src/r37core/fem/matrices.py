@@ -12,7 +12,16 @@ import scipy.sparse as sp
 
 from r37core.mesh.blade_mesh import BladeMesh
 
-from .assembly import Blocks, NodePattern, assemble_mass, assemble_stiffness, block_matrix, stiffness_points, typed_blocks
+from .assembly import (
+    Blocks,
+    NodePattern,
+    assemble_mass,
+    assemble_stiffness,
+    block_matrix,
+    mass_points,
+    nodal_sums,
+    stiffness_points,
+)
 from .material import Material
 from .solver import Solve, factorise
 from .stress import stress_at
@@ -46,6 +55,25 @@ class StructuralMatrices:
         """Elastic stiffness (N/m)."""
         pairs = self._free_pairs
         return block_matrix(pairs.indptr, pairs.indices, self.stiffness_blocks[pairs.data])
+
+    def whole(self, free: np.ndarray) -> np.ndarray:
+        """Field of all nodes, shape (nodes, 3, ...), from the unclamped degrees of freedom, shape (dofs, ...); 0 elsewhere."""
+        field = np.zeros((len(self.indptr) - 1, 3, *free.shape[1:]))
+        field[self.free_nodes] = free.reshape(-1, *field.shape[1:])
+        return field
+
+    def free(self, field: np.ndarray) -> np.ndarray:
+        """The unclamped degrees of freedom, shape (dofs,), of a field of all nodes, shape (nodes, 3)."""
+        return field[self.free_nodes].ravel()
+
+    @property
+    def free_load(self) -> np.ndarray:
+        """Centrifugal load per Omega^2 (N s2/rad2) on the unclamped degrees of freedom, shape (dofs,)."""
+        return self.free(self.centrifugal_load)
+
+    def displaced_by(self, load: np.ndarray) -> np.ndarray:
+        """Displacement (m), shape (nodes, 3), of the blade at rest under nodal forces (N), shape (nodes, 3)."""
+        return self.whole(self.solve_at_rest(self.free(load)))
 
     @cached_property
     def solve_at_rest(self) -> Solve:
@@ -92,31 +120,19 @@ def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
         centrifugal_load=centrifugal_load(blocks, points, material.density),
         free_nodes=mesh.free_nodes,
     )
-    displacement = static_displacement(matrices, matrices.centrifugal_load)
+    displacement = matrices.displaced_by(matrices.centrifugal_load)
     # in place: the factors of the stiffness, a third of the work of a reduction, are kept for it
     matrices.geometric_pairs[:] = assemble_geometric_stiffness(pattern, blocks, points, material, displacement)
     return matrices
 
 
-def static_displacement(matrices: StructuralMatrices, load: np.ndarray) -> np.ndarray:
-    """Displacement (m), shape (nodes, 3), of the clamped blade at rest under nodal forces (N), shape (nodes, 3)."""
-    displacement = np.zeros_like(load)
-    free = matrices.free_nodes
-    displacement[free] = matrices.solve_at_rest(load[free].ravel()).reshape(-1, 3)
-    return displacement
-
-
 def centrifugal_load(blocks: Blocks, points: np.ndarray, density: float) -> np.ndarray:
     """Nodal forces of rotation per Omega^2 (N s2/rad2), shape (nodes, 3): integral of density N (x, y, 0)."""
     load = np.zeros_like(points)
-    for name, element, coordinates in typed_blocks(blocks, points):
-        rule_points, rule_weights = element.mass_rule
-        values = element.shape_functions(rule_points)
-        determinant = np.linalg.det(element.jacobian(coordinates, rule_points))
-        arm = np.einsum("qa,eai->eqi", values, coordinates) * np.array([1.0, 1.0, 0.0])
-        forces = np.einsum("qa,eqi,eq->eai", values, arm, density * determinant * rule_weights, optimize=True)
-        for i in range(3):
-            load[:, i] += np.bincount(blocks[name].ravel(), weights=forces[:, :, i].ravel(), minlength=len(points))
+    for name, values, determinant, weights in mass_points(blocks, points):
+        arm = np.einsum("qa,eai->eqi", values, points[blocks[name]]) * np.array([1.0, 1.0, 0.0])
+        forces = np.einsum("qa,eqi,eq->eai", values, arm, density * determinant * weights, optimize=True)
+        load += nodal_sums(blocks[name], forces, len(points))
     return load
 
 

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from itertools import cycle
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -23,7 +22,7 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
 
     `casings`: elastic ones by scene, as plain values; their waves are seen from the rotor, paler where simulations have none.
     """
-    figure, (left, right) = plt.subplots(1, 2, figsize=(style.PAGE, 3.6), width_ratios=[1.7, 1.0])
+    figure, ((left, right),) = style.panels(1, 2, 3.6, width_ratios=[1.7, 1.0])
     speed = campbell["speed"].values
     highest = 1.3 * float(campbell["frequency"].sel(mode="2B").max())
     left.set(xlabel=style.SPEED_LABEL, ylabel="frequency (Hz)", ylim=(0.0, highest), xlim=(0.0, speed[-1]))

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import xarray as xr
@@ -61,7 +60,8 @@ def draw_comparison(
     panels_of = {f"rms, {direction} (mm)": 1e3 * edge[f"rms_{direction}"] for direction in directions}
     if stress is not None:
         panels_of[style.stress_label(stress)] = stress["max_von_mises_median"]
-    figure, panels = plt.subplots(len(panels_of), 1, figsize=(style.PAGE, 1.9 * len(panels_of) + 0.5), sharex=True)
+    figure, grid = style.panels(len(panels_of), 1, 1.9 * len(panels_of) + 0.5, sharex=True)
+    panels = grid[:, 0]
     for axes, (label, values) in zip(panels, panels_of.items(), strict=True):
         for blade in values["blade"].values if order else []:
             crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=order))
@@ -89,7 +89,7 @@ def draw_comparison(
         style.say(panels[0], "no crossing of 1B was run: see the figures of each blade")
     panels[0].set_title(f"blades in scene {title}")
     if panels[0].lines[:-1]:
-        figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
+        style.legend_below(figure, panels, 5)
     return figure
 
 
@@ -103,8 +103,7 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     tables = {scene: _shown_blades(ranking[ranking["scene"] == scene].set_index("blade")) for scene in scenes}
     columns = min(len(scenes), 2)
     rows = -(-len(scenes) // columns)
-    size = (style.PAGE, 0.7 + rows * (0.5 + 0.34 * max(3, *map(len, tables.values()))))
-    figure, panels = plt.subplots(rows, columns, figsize=size, squeeze=False)
+    figure, panels = style.panels(rows, columns, 0.7 + rows * (0.5 + 0.34 * max(3, *map(len, tables.values()))))
     for axes in panels.flat[len(scenes) :]:
         axes.set_visible(False)
     contacts = ranking["contact"].unique()
@@ -116,7 +115,7 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     if len(contacts) == 1 and contacts[0]:
         nodes, _, kinematics = contacts[0].partition(", ")
         figure.suptitle(f"contact: {nodes}; kinematics: {kinematics or LINEAR}")
-    figure.legend(*style.legend_entries(list(panels.flat)), loc="outside lower center", ncols=4)
+    style.legend_below(figure, panels.flat, 4)
     return figure
 
 

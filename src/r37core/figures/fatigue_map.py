@@ -3,7 +3,6 @@
 from pathlib import Path
 from typing import Any, Final
 
-import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.cm import ScalarMappable
@@ -14,8 +13,8 @@ from r37core.results.measures import has_strengths
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.statistic import Strengths
 
+from . import style
 from .offscreen import draw_edges, look, new_plotter, read_grid, rendered, sides, surface_of, without_margins
-from .style import PAGE, empty_figure
 
 _COLOUR_MAP: Final = "viridis"
 _PIXELS, _HEIGHT = (600, 800), 3.2
@@ -45,14 +44,14 @@ def draw_fatigue(mesh: Path | str, points: np.ndarray, response: xr.Dataset, tit
     """
     if not has_strengths(response) or not response["goodman_share"].notnull().any():
         missing = "no run that ended" if has_strengths(response) else "no strengths in blades.yaml"
-        return empty_figure(f"{title}: {missing}")
+        return style.empty_figure(f"{title}: {missing}")
     strengths = Strengths(float(response["fatigue_strength"]), float(response["ultimate_strength"]))
     shares = strengths.share(response["alternating_stress"].values, response["mean_stress"].values)
     worst = response.isel(speed=int(np.nan_to_num(shares).max(axis=1).argmax()))
     alternating, mean = (worst[f"{kind}_stress"].values for kind in ("alternating", "mean"))
     share = strengths.share(alternating, mean)
     grid, largest = read_grid(mesh), float(share.max())
-    figure, panels = plt.subplots(1, 4, figsize=(PAGE, _HEIGHT), layout="constrained")
+    figure, (panels,) = style.panels(1, 4, _HEIGHT)
     for axes in panels:
         axes.set_axis_off()
     for number, (side, seen_from) in enumerate(zip(sides(grid), _DIRECTIONS, strict=True)):

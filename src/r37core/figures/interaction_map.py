@@ -96,10 +96,8 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
                 ticks = [tick for tick in axes.get_yticks() if 0.0 <= tick <= highest]
                 axes.set_yticks([strip, *ticks], ["no order", *(f"{tick:g}" for tick in ticks)])
             _draw_marks(axes, rows[rows["scene"] == scene], colours)
-        handles, labels = style.legend_entries(grid.flat)
         close: dict[str, Any] = {"handletextpad": 0.1, "columnspacing": 1.0}
-        if handles:
-            figure.legend(handles, labels, loc="outside lower center", ncols=5, **close)
+        style.legend_below(figure, grid.flat, 5, **close)
         if not sized_by_motion.all():
             known = {above: mark for above, mark in _MARKS.items() if above or "" in set(rows["above"])}
             keys = [

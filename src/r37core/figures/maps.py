@@ -24,7 +24,7 @@ def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Fig
     In decibels below the largest amplitude at the same speed, so that what is not resonant is seen, too; that largest amplitude
     (mm) stands above the map. Order 0, the mean, does not count.
     """
-    figure, grid = plt.subplots(2, 2, figsize=(style.PAGE, 4.4), sharex=True, sharey="row", height_ratios=[1.0, 4.0])
+    figure, grid = style.panels(2, 2, 4.4, sharex=True, sharey="row", height_ratios=[1.0, 4.0])
     figure.suptitle(f"spectrum: {title}, leading edge")
     pictures = []
     for strip, axes, (name, direction) in zip(*grid, DIRECTIONS.items(), strict=True):
@@ -130,7 +130,7 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
     # neither speeds that diverged, nor modes of other scenes or too fast for the samples
     maps = maps.dropna("speed", how="all", subset=["casing_energy"])
     maps = maps.dropna("casing_mode", how="all", subset=["casing_energy"])
-    figure, panels = plt.subplots(2, 2, figsize=(style.PAGE, 4.4), sharex=True, height_ratios=[3.0, 1.0])
+    figure, panels = style.panels(2, 2, 4.4, sharex=True, height_ratios=[3.0, 1.0])
     figure.suptitle(f"waves round the casing: {title}")
     speed, diameters = maps["speed"].values, maps["casing_nodal_diameter"].values
     levels = {wave: maps[f"casing_rms_{wave}"].transpose("casing_mode", "speed").values for wave in ("forward", "backward")}

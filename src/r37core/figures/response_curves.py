@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import matplotlib.pyplot as plt
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -37,7 +36,8 @@ def draw_response(
     """
     rms = with_further_runs("rms", rms, further_runs)
     stress = None if stress is None else with_further_runs("stress", stress, further_runs)
-    figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
+    figure, grid = style.panels(2 if stress is None else 3, 1, 6.4, sharex=True)
+    panels = grid[:, 0]
     for axes, direction in zip(panels, ("normal", "tangential"), strict=False):
         _draw_scenes(axes, rms, direction)
         if motions is not None:
@@ -61,7 +61,7 @@ def draw_response(
         axes.set_ylim(bottom=0.0)
     panels[-1].set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
-    figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
+    style.legend_below(figure, panels, 4)
     return figure
 
 

@@ -146,6 +146,19 @@ def legend_entries(panels: Iterable[Axes]) -> tuple[list[Any], list[str]]:
     return list(entries.values()), list(entries)
 
 
+def panels(rows: int, columns: int, height: float, **look: Any) -> tuple[Figure, Any]:
+    """A figure across the page, of a height (inch), and its panels, shape (rows, columns); `look`: as of pyplot.subplots."""
+    return plt.subplots(rows, columns, figsize=(PAGE, height), squeeze=False, **look)
+
+
+def legend_below(figure: Any, axes: Iterable[Axes], columns: int, first: Mapping[str, Any] | None = None, **look: Any) -> None:
+    """One legend of several panels below all of them, `first` the handles of these labels; none where there is nothing."""
+    handles, labels = legend_entries(axes)
+    first = first or {}
+    if first or labels:
+        figure.legend([*first.values(), *handles], [*first, *labels], loc="outside lower center", ncols=columns, **look)
+
+
 def mark_diverged(axes: Axes, places: np.ndarray, colour: str = "red") -> None:
     """Crosses at the upper edge, worse than any number, at the places on the x axis where a run diverged."""
     if len(places):

@@ -29,17 +29,13 @@ class LinearBlade:
         softened = geometric + self._matrices.spin_softening() if self._reduction.spin_softening else geometric
         return self._matrices.stiffness(), sp.csr_array(softened)
 
-    @property
-    def _load(self) -> np.ndarray:
-        return self._matrices.centrifugal_load[self._matrices.free_nodes].ravel()
-
     def states(self) -> Iterator[StateAtSpeed]:
         """The blade at the speeds one after another."""
         stiffness, per_square = self._terms
         for speed in self._reduction.speeds:
             total = sp.csr_array(stiffness + speed**2 * per_square)
             solve = factorise(total) if speed else self._matrices.solve_at_rest
-            self._displaced.append(solve(self._load))
+            self._displaced.append(solve(self._matrices.free_load))
             yield StateAtSpeed(speed, total, solve)
 
     def derivatives(self, state: StateAtSpeed) -> None:
@@ -47,7 +43,7 @@ class LinearBlade:
 
     def shapes_of_rotation(self) -> tuple[np.ndarray, np.ndarray]:
         """Shapes and stiffening of rotation: see r37core.rom.rotation."""
-        return shapes_of_rotation(*self._terms, np.stack(self._displaced, axis=1), self._load)
+        return shapes_of_rotation(*self._terms, np.stack(self._displaced, axis=1), self._matrices.free_load)
 
     def stiffness_terms(self, vectors: np.ndarray) -> dict[str, Any]:
         """Fields of the reduced model about its stiffness in a basis."""

@@ -42,18 +42,12 @@ def reduce_blade(
     vectors, singular_values = multi_speed_basis(blade.states(), mass, coordinates, reduction, blade.derivatives)
     rotation_shapes, rotation_stiffening = blade.shapes_of_rotation()
 
-    def whole_field(free_field: np.ndarray) -> np.ndarray:
-        """The columns over the unclamped degrees of freedom as displacements of all nodes, shape (nodes, 3, columns)."""
-        whole = np.zeros((len(mesh.points), 3, free_field.shape[1]))
-        whole[matrices.free_nodes] = free_field.reshape(-1, 3, free_field.shape[1])
-        return whole
-
-    whole, rotated = whole_field(vectors), whole_field(rotation_shapes)
+    whole, rotated = matrices.whole(vectors), matrices.whole(rotation_shapes)
 
     def recovery(nodes: np.ndarray) -> RecoveryNodes:
         return RecoveryNodes(nodes, mesh.points[nodes], whole[nodes], rotated[nodes])
 
-    shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
+    shapes = {name: matrices.free(shape) for name, shape in ideal_shapes(mesh).items()}
     mass_times_vectors, stiffness = mass @ vectors, blade.stiffness_terms(vectors)
     reduced_mass = symmetric(vectors.T @ mass_times_vectors)
     squares, modes = la.eigh(stiffness["stiffness"], reduced_mass)

@@ -8,7 +8,6 @@ displacement to second order with its inertia is that of these columns.
 """
 
 from collections.abc import Iterator
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -46,12 +45,6 @@ class RotatingBlade:
         self._points = mesh.points
         self._tip = np.concatenate([mesh.node_set(name)[[0, -1]] for name in TIP_LINES.values()])
 
-    @cached_property
-    def _slope(self) -> np.ndarray:
-        """Displacement per squared speed from rest on, shape (nodes, 3)."""
-        load = self._rotation.free(self._matrices.centrifugal_load)
-        return self._rotation.whole(self._matrices.solve_at_rest(load))
-
     def states(self) -> Iterator[StateAtSpeed]:
         """The blade at the speeds one after another. Raises NoEquilibriumError."""
         yield StateAtSpeed(0.0, self._matrices.stiffness(), self._matrices.solve_at_rest)
@@ -82,7 +75,8 @@ class RotatingBlade:
         """
         stiffening = _RELATIVE_STIFFENING / max(self._reduction.speeds) ** 2
         squares = np.square(self._reduction.speeds)
-        per_square = [self._slope, *(field / square for field, square in zip(self._equilibria[1:], squares[1:], strict=True))]
+        from_rest = self._matrices.displaced_by(self._matrices.centrifugal_load)
+        per_square = [from_rest, *(field / square for field, square in zip(self._equilibria[1:], squares[1:], strict=True))]
         fields = np.array([self._rotation.free(field) for field in per_square])
         return la.solve(1.0 / (1.0 + np.outer(squares, stiffening)), fields).T, stiffening
 

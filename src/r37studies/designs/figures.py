@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -53,14 +52,14 @@ def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -
     table, kind, keys = chosen.rows(table), chosen.kind, chosen.keys
     drawn = _DRAWN[kind]
     count = len(drawn) // 3
-    figure, grid = plt.subplots(count, 3, figsize=(style.PAGE, 2.1 * count + (0.9 if len(keys) > 1 else 0.1)), sharex=True)
+    figure, grid = style.panels(count, 3, 2.1 * count + (0.9 if len(keys) > 1 else 0.1), sharex=True)
     for axes, measure in zip(grid.flat, drawn, strict=True):
         unit, factor = shown_unit(unit_of(measure))
         for name, rows in table.groupby(chosen.other, sort=False):
             _draw(axes, rows.assign(**{measure: factor * rows[measure]}), measure, kind, keys, str(name))
         axes.set_ylabel(f"{fill(_TITLES[measure], _LABEL_WIDTH)}\n({unit})")
     # what does not depend on the scene is the same line twice
-    figure.legend(*style.legend_entries([grid.flat[-1]]), loc="outside lower center", ncols=4)
+    style.legend_below(figure, [grid.flat[-1]], 4)
     for axes in grid[-1]:
         if len(keys) == 1:
             axes.set_xlabel(axis_of_key(keys[0])[0])

@@ -50,9 +50,7 @@ def draw_design_map(
     for axes in list(grid.flat)[len(panels) :]:
         axes.set_axis_off()
     figure.colorbar(cells, ax=grid, label=label)
-    handles, labels = style.legend_entries(grid.flat)
-    if handles:
-        figure.legend(handles, labels, loc="outside lower center", ncols=2)
+    style.legend_below(figure, grid.flat, 2)
     figure.suptitle(f"family {title.replace('__', ' x ')}")
     return figure
 

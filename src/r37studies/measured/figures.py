@@ -3,7 +3,6 @@
 from pathlib import Path
 from textwrap import fill
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import xarray as xr
@@ -30,7 +29,7 @@ def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: Path = N
     sampled = None
     if members != NO_MEMBERS and blade in (every := read_dataset(members))["blade"].values and scene in every["scene"].values:
         sampled = every.sel(blade=blade, scene=scene)
-    figure, grid = plt.subplots(len(own), 1, figsize=(style.PAGE, 0.4 + 2.1 * len(own)), squeeze=False)
+    figure, grid = style.panels(len(own), 1, 0.4 + 2.1 * len(own))
     for axes, (quantity, rows) in zip(grid.flat, own, strict=True):
         rows = rows.assign(simulated=rows["simulated"].replace(np.inf, np.nan))
         unit, factor = shown_unit(rows["unit"].iloc[0])
@@ -60,7 +59,7 @@ def draw_measured(blade: str, scene: str, table: pd.DataFrame, members: Path = N
 def draw_calibration(calibration: xr.Dataset) -> Figure:
     """Ranges of the numbers over their distributions before, and each measured point beside the simulated range."""
     count = calibration.sizes["number"]
-    figure, (left, right) = plt.subplots(1, 2, figsize=(style.PAGE, 1.2 + 0.5 * max(count, 4)), width_ratios=[1, 1.4])
+    figure, ((left, right),) = style.panels(1, 2, 1.2 + 0.5 * max(count, 4), width_ratios=[1, 1.4])
     for place, name in enumerate(calibration["number"].values):
         shares = calibration["share"].sel(number=name)
         for (low, high), width in (((0.025, 0.975), 1.5), ((0.16, 0.84), 5.0)):

@@ -3,7 +3,6 @@
 Motion is the leading edge's displacement, normal and tangential together.
 """
 
-import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -23,7 +22,7 @@ _NAMED = 3
 
 def draw_rotor(rotor: xr.Dataset, title: str) -> Figure:
     """Four panels of one blade shape in one scene: see the captions."""
-    figure, panels = plt.subplots(2, 2, figsize=(style.PAGE, 4.6))
+    figure, panels = style.panels(2, 2, 4.6)
     figure.suptitle(f"{title}: a rotor of {rotor.sizes['blade_number']} blades")
     _draw_map(panels[0, 0], rotor)
     _draw_worst(panels[0, 1], rotor)

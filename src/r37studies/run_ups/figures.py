@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import xarray as xr
+from matplotlib import colormaps
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -32,10 +32,9 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, blade: str, scene: str) -> Fig
     # what another scene computes is in the dataset, too; runs that diverged at once have nothing
     there = [name for name in _QUANTITIES if name in run_ups and any(run[name].notnull().any() for run in runs)]
     shown = {name: _QUANTITIES[name] for name in there or ["rms_normal"]}
-    size = (style.PAGE, 1.6 * len(shown) + 0.8)
-    figure, grid = plt.subplots(len(shown), 2, figsize=size, sharex="col", sharey="row", squeeze=False)
+    figure, grid = style.panels(len(shown), 2, 1.6 * len(shown) + 0.8, sharex="col", sharey="row")
     rates = sorted({abs(float(run["rate"])) for run in runs})
-    colours = dict(zip(rates, plt.get_cmap("viridis")(np.linspace(0.0, 0.9, len(rates))), strict=True))
+    colours = dict(zip(rates, colormaps["viridis"](np.linspace(0.0, 0.9, len(rates))), strict=True))
     for run in runs:
         marker = "." if run.sizes["revolution"] < _FEW_REVOLUTIONS else None
         since = run["revolution"] - run["revolutions_before"]
@@ -70,9 +69,7 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, blade: str, scene: str) -> Fig
         grid[-1, 1].set_xscale("log")
     style.rpm_axis(grid[0, 0], most_ticks=5)
     figure.suptitle(f"run-ups: {title}, leading edge")
-    handles, labels = style.legend_entries(grid[:, 0])
-    keys = _keys(runs, colours)
-    figure.legend([*keys.values(), *handles], [*keys, *labels], loc="outside lower center", ncols=6)
+    style.legend_below(figure, grid[:, 0], 6, _keys(runs, colours))
     return figure
 
 
@@ -95,7 +92,7 @@ def draw_rates(runs: pd.DataFrame, title: str, scene: str) -> Figure:
     styles = style.blade_styles(dict.fromkeys(runs["blade"]))
     runs = runs[(runs["scene"] == scene) & (runs["rate_rad_s2"] > 0.0)].sort_values("rate_rad_s2", kind="stable")
     directions = [name for name in _DIRECTIONS if name in set(runs["direction"])] or ["up"]
-    figure, panels = plt.subplots(1, len(directions), figsize=(style.PAGE, 3.6), sharey=True, squeeze=False)
+    figure, panels = style.panels(1, len(directions), 3.6, sharey=True)
     several = runs.groupby("blade")[_RANGE].nunique().max().max() > 1 if len(runs) else False
     for axes, direction in zip(panels[0], directions, strict=True):
         axes.set_title(f"run-{direction}s")
@@ -114,7 +111,5 @@ def draw_rates(runs: pd.DataFrame, title: str, scene: str) -> Figure:
         axes.set_yscale("log")
     panels[0, 0].set_ylabel("largest von Mises (GPa)")
     figure.suptitle(f"largest stress against rate: {title}")
-    handles, labels = style.legend_entries(panels[0])
-    if labels:
-        figure.legend(handles, labels, loc="outside lower center", ncols=5)
+    style.legend_below(figure, panels[0], 5)
     return figure

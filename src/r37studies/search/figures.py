@@ -50,7 +50,7 @@ def draw_designs(search: xr.Dataset) -> Figure:
     if len(objectives) == 1:
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.xaxis.set_major_formatter(FuncFormatter(lambda round, _: START if round == -1 else f"{round:.0f}"))
-    figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=3)
+    style.legend_below(figure, panels, 3)
     figure.suptitle(_title(search))
     return figure
 

@@ -1,6 +1,5 @@
 """Motions up, down and from rest over the speed, and what dwells find."""
 
-import matplotlib.pyplot as plt
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
@@ -26,7 +25,7 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, b
     shares = blade_dwells["share_of_time_high"].notna().any()
     exponents = blade_dwells[[f"lyapunov_exponent_{which}" for which in (HIGH, LOW)]].notna().any(axis=None)
     count = 1 + int(stress) + int(shares) + int(exponents)
-    figure, grid = plt.subplots(count, 1, figsize=(style.PAGE, 1.9 * count + 0.8), sharex=True, squeeze=False)
+    figure, grid = style.panels(count, 1, 1.9 * count + 0.8, sharex=True)
     panels = grid[:, 0]
     left = iter(panels)
     axes = next(left)
@@ -60,7 +59,7 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, b
     panels[0].set_title(f"{title}: carried up and down, and from rest; leading edge, normal and tangential together")
     panels[-1].set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
-    figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
+    style.legend_below(figure, panels, 4)
     return figure
 
 

@@ -40,7 +40,7 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
         style.yield_lines(
             panels[curves.index("max_von_mises_ever")], {"": float(tolerances["yield_stress"].median())}, named=True
         )
-    above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
+    style.legend_below(above, panels, 4)
     above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
     for part in below:
         _numbers(part.subplots(1, 1), tolerances)
