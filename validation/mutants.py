@@ -47,7 +47,6 @@ TESTS = {
     "base/speeds.py": "test_refinement.py test_config.py",
     "trials/": "test_trials.py",
     "time_integration/integrators.py": "test_time_integration.py test_contact_steps.py test_initial_motion.py",
-    "time_integration/jump_plan.py": "test_jumps.py",
     "time_integration/rotor_numbers.py": "test_rotor_numbers.py test_rotor.py",
     "time_integration/problem.py": "test_run_statistics.py test_time_integration.py",
     "time_integration/speed_run.py": "test_run_statistics.py",

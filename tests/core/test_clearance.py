@@ -198,15 +198,6 @@ def test_compiled_engine_is_the_reference(scene, integrator):
     assert_alike(found, expected, 1e-7)
 
 
-@pytest.mark.parametrize("scene", [growing(NARROW), growing(DIRECT), growing(replace(DIRECT, exact_gap=True))])
-def test_jumps_pass_no_contact_over(scene):
-    """The largest room is at the first node, the least at another one: jumps must look at each."""
-    model = moved(8, size=6e-5)
-    (found, totals), (expected, stepped) = (run_of(model, scene, replace(SHORT, jumps=jumps)) for jumps in (True, False))
-    assert totals["steps_jumped"] > 0 == stepped["steps_jumped"]
-    assert_alike(found, expected, 1e-8)
-
-
 def test_energy_closes_where_the_tip_is_pressed_in():
     scene = growing(NARROW, clearance=1e-6, amplitude=30.0)
     model = moved(4, size=5e-5)

@@ -100,7 +100,7 @@ def test_compiled_time_integration_is_the_reference(name, step):
         assert_same_record(part, expected)
     for kind in ("displacement", "increment"):
         assert_close(getattr(ours, kind), getattr(theirs, kind), 1e-9)
-    assert ours.totals["steps_in_contact"] > 100 and ours.totals["steps_jumped"] > 100
+    assert ours.totals["steps_in_contact"] > 100
     # forces settle to a share of the gap, here many times the lining
     assert_same_state(ours, theirs, within=1e-9)
     loss = ours.totals["loss"]
@@ -144,12 +144,11 @@ def test_a_load_that_runs_round_the_ring(speed):
     np.testing.assert_allclose(record.samples[-1, 0], -force / 2e4**2, rtol=2e-4)
 
 
-@pytest.mark.parametrize("jumps", [True, False])
-def test_free_waves_keep_their_frequency_and_their_sense(jumps):
+def test_free_waves_keep_their_frequency_and_their_sense():
     """In the frame that does not turn a wave of a mode has the mode's frequency, whichever way it runs."""
     speed, modes = 1300.0, (RingMode(3, 4 * 1300.0, 1.0, 0.0, 1.0, 1.0 / 3.0), RingMode(0, 3 * 1300.0, 1.0, 0.0))
     scene = with_ring(Scene(Casing(1.0, lobes=0), damping_ratio=0.0, divergence_limit=10.0), modes)
-    choice = replace(CHOICE, time_step=2e-5, revolutions=40, jumps=jumps)
+    choice = replace(CHOICE, time_step=2e-5, revolutions=40)
     simulation = Simulation(with_static_modes(oscillator(5000.0), 1e-9), speed, scene, choice)
     state, step = simulation.start(), simulation.problem.grid.time_step
     # q_c = cos(omega t), q_s = -sin(omega t): Z = e^(i omega t); and the ring breathes
@@ -157,7 +156,6 @@ def test_free_waves_keep_their_frequency_and_their_sense(jumps):
     angles = np.array([4, 3]) * speed * step
     state.increment[1:] = 1e-3 * np.concatenate([2.0 * np.sin(0.5 * angles) ** 2, [-np.sin(angles[0]), 0.0]])
     record = simulation.advance(state, 40)
-    assert (state.totals["steps_jumped"] > 0) == jumps
     found = casing_waves(record.casing, simulation.problem.casing.ring, speed, 40, 20)
     peaks = found["casing_order"][found["casing_amplitude"].argmax(axis=1)]
     assert peaks[0] == 4.0 and abs(peaks[1]) == 3.0

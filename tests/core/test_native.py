@@ -260,7 +260,7 @@ def records(kind):
 def test_no_record_has_more_than_60_fields_and_its_arrays_are_aligned_and_apart():
     """A record inside of one is one field of it."""
     sizes = [len(kind.names) for kind in records(integration_record(capacity_of(1, 1)))]
-    assert len(sizes) == 11
+    assert len(sizes) == 10
     assert max(sizes) <= 60
     for kind in records(integration_record(capacity_of(88, 9))):
         places = sorted((offset, offset + field.itemsize) for field, offset in kind.fields.values())
@@ -298,21 +298,20 @@ def test_an_address_of_vectors_is_that_of_an_array_without_gaps_on_their_boundar
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_blades_of_any_size_take_one_program(integrator):
-    """Of 1 to 96 modes and up to 8 nodes, with jumps or without."""
+    """Of 1 to 96 modes and up to 8 nodes."""
     programs, sizes = [], []
     for nodes, modes in ((3, 1), (8, 5), (8, 40), (8, 96)):
-        for jumps in (True, False):
-            model, choice = random_model(nodes, modes), IntegrationChoice(1e-7, 2, 31, integrator=integrator, jumps=jumps)
-            if integrator == EXACT_MODAL:
-                model = with_static_modes(model, 1e-9)
-            simulation = Simulation(model, 12_000.0, DIRECT, choice)
-            programs.append(simulation.engine._advance)
-            sizes.append(len(simulation.problem.blade.frequencies))
-            state = simulation.start()
-            state.displacement[:] = 1e-7
-            simulation.advance(state, 1)
-            assert np.isfinite(state.displacement).all()
-    assert sizes == [1, 1, 5, 5, 40, 40, 96, 96]
+        model, choice = random_model(nodes, modes), IntegrationChoice(1e-7, 2, 31, integrator=integrator)
+        if integrator == EXACT_MODAL:
+            model = with_static_modes(model, 1e-9)
+        simulation = Simulation(model, 12_000.0, DIRECT, choice)
+        programs.append(simulation.engine._advance)
+        sizes.append(len(simulation.problem.blade.frequencies))
+        state = simulation.start()
+        state.displacement[:] = 1e-7
+        simulation.advance(state, 1)
+        assert np.isfinite(state.displacement).all()
+    assert sizes == [1, 5, 40, 96]
     assert all(program is programs[0] for program in programs)
 
 

@@ -68,7 +68,7 @@ def test_a_rotor_of_one_blade_is_the_blade(name):
     _, state, alone = whole_run(a_blade(), SPEED, SCENES[name], choice)
     of_rotor = run(rotor_of(1), SCENES[name], choice)
     assert np.abs(alone.samples).max() > 1e-5 and len(alone.snapshots) > 8
-    assert state.totals["steps_jumped"] > 0.0 and state.totals["steps_in_contact"] > 0.0
+    assert state.totals["steps_in_contact"] > 0.0
     for kind in ("samples", "snapshots", "casing"):
         np.testing.assert_array_equal(getattr(of_rotor.records[0], kind), getattr(alone, kind))
     np.testing.assert_array_equal(of_rotor.states[0].wear, state.wear)

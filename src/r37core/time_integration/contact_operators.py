@@ -66,17 +66,6 @@ class ContactOperators:
             operator[..., len(self.blade.frequencies) :] = self._ring_rows
         return operator
 
-    @property
-    def size_operator(self) -> np.ndarray:
-        """Largest displacement of the nodes per amplitude of each mode alone, in the shape of `displacement_operator`."""
-        sizes = np.abs(self.displacement_operator)
-        if self.casing.ring is not None:
-            # a pair turns into each other
-            blade = len(self.blade.frequencies)
-            first, second = np.split(sizes[..., blade:], 2, axis=-1)
-            sizes[..., blade:] = np.tile(np.hypot(first, second), 2)
-        return sizes
-
     @cached_property
     def static_shapes(self) -> np.ndarray:
         """Displacement that follows forces on the contact nodes at once, shape (modes at rest, 3 nodes).

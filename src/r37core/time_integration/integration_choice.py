@@ -33,11 +33,11 @@ LARGEST_TABLE = 2**28
 class IntegrationChoice:
     """Numbers of the time integration: largest time step (s), revolutions, samples per revolution, and what is recorded.
 
-    `snapshots_per_revolution` states are recorded in each of the last `snapshot_revolutions`; `jumps`: whether free flight is
-    jumped over or stepped through; `static_above`: with exact_modal, modes with a larger product of angular frequency and step
-    are not stepped either, and all that are not stepped follow the contact forces statically; `shorten`: whether an unstable
-    step is shortened, or refused; `steps_per_sample`: given where a run keeps them over many speeds. `until_settled`:
-    whether a run ends as soon as it has settled (time_integration.settling).
+    `snapshots_per_revolution` states are recorded in each of the last `snapshot_revolutions`; `static_above`: with
+    exact_modal, modes with a larger product of angular frequency and step are not stepped either, and all that are not stepped
+    follow the contact forces statically; `shorten`: whether an unstable step is shortened, or refused; `steps_per_sample`:
+    given where a run keeps them over many speeds. `until_settled`: whether a run ends as soon as it has settled
+    (time_integration.settling).
     """
 
     time_step: float
@@ -48,7 +48,6 @@ class IntegrationChoice:
     ] = CENTRAL_DIFFERENCE
     snapshots_per_revolution: int = 0
     snapshot_revolutions: int = 0
-    jumps: bool = True
     highest_frequency: Annotated[
         float, Key("Highest stepped frequency; faster modes are static with exact_modal, else left out", "_hz", ge=100, le=1e12)
     ] = float("inf")

@@ -41,15 +41,6 @@ class Recursion:
         """Energy lost to damping per step and squared u_{n+1} - u_{n-1}, shape (modes,)."""
         return self.lost / (4.0 * self.inverse)
 
-    @property
-    def loss_form(self) -> list[np.ndarray]:
-        """The loss of a free step as a quadratic form of u and d before it: uu, ud, dd.
-
-        It is that of the central difference (u' - u_before) = (1 + keep) d - pull u.
-        """
-        keep, pull, loss = self.keep, self.pull, self.loss
-        return [loss * pull**2, -2.0 * loss * pull * (1.0 + keep), loss * (1.0 + keep) ** 2]
-
     def energy(self, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
         """Energy E_n (J) of u_n and d_n, in the shape of the recursion; conserved by the free undamped one."""
         kinetic = 0.5 * (1.0 + self.keep) * increment**2

@@ -4,12 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from r37core.machine_code.alignment import LANES
 from r37core.rom.rotation import BucklingError
 
 from .clearance import clearances
 from .integrators import Increments, Recursion, increments, recursion
-from .jump_plan import JumpPlan, plan_jumps
 from .problem import Problem
 
 
@@ -22,7 +20,6 @@ class Segments(NamedTuple):
     speeds: np.ndarray
     recursion: Recursion
     coupling: np.ndarray | None
-    jumps: JumpPlan | None
     clearance: np.ndarray
     increments: Increments | None
 
@@ -32,7 +29,7 @@ def own_segment(problem: Problem) -> Segments:
     several = problem.contact.recursion[None]
     coupling = None if problem.choice.second_order else problem.contact.coupling[None]
     speeds = np.array([problem.speed])
-    return Segments(speeds, several, coupling, _jumps(problem, several), problem.casing.clearance[None], None)
+    return Segments(speeds, several, coupling, problem.casing.clearance[None], None)
 
 
 def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
@@ -46,20 +43,12 @@ def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
     rooms = clearances(problem.model, problem.scene, speeds)
     modal_increments = increments(problem.choice.integrator, *motion)
     coupling = None if problem.choice.second_order else problem.contact.coupling_of(several.inverse)
-    return Segments(speeds, several, coupling, _jumps(problem, several), rooms, modal_increments)
+    return Segments(speeds, several, coupling, rooms, modal_increments)
 
 
 def own_increments(problem: Problem) -> Increments:
     """Increments at the problem's own speed, of all modes, shape (1, modes)."""
     return increments(problem.choice.integrator, *_motion_at(problem, np.array([problem.speed])))
-
-
-def _jumps(problem: Problem, recursion: Recursion) -> JumpPlan | None:
-    if not problem.choice.jumps or problem.contact.quadratic is not None:
-        # elastic forces of second order act in flight, too
-        return None
-    # the casing's modes turn as they go, and so do not follow a tangent
-    return plan_jumps(recursion, problem.grid.steps_per_sample, LANES, followed=len(problem.blade.frequencies))
 
 
 def _motion_at(problem: Problem, speeds: np.ndarray) -> tuple[np.ndarray, float | np.ndarray, np.ndarray]:

@@ -15,7 +15,6 @@ TOTALS = np.dtype(
         ("loss", np.float64),  # of energy to damping (J)
         ("friction_heat", np.float64),  # work of the friction against the sliding over the casing (J)
         ("steps", np.float64),
-        ("steps_jumped", np.float64),  # of them, part of a jump over free flight
         ("steps_bounded", np.float64),  # in which the elastic energy of second order was bounded
         ("largest_penetration", np.float64),  # of the tip's edge into the casing (m), in steps with a contact force
     ]

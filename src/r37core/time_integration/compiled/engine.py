@@ -11,14 +11,13 @@ from r37core.machine_code.alignment import NUMBER_BYTES, address_of
 from r37core.machine_code.native import Sources, cached_object, load_function
 
 from ..integration_choice import revolutions_at_once
-from ..jump_numbers import LOSS_DD, LOSS_UD, LOSS_UU
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
 from .laid_out import LaidOutProblem
 from .layout import NORMAL, TANGENTIAL, Capacity, Kind
 
-_COMPILED = ("contact_steps", "edge_steps", "jump_steps", "layout", "quadratic_steps", "segment_steps", "program", "steps")
+_COMPILED = ("contact_steps", "edge_steps", "layout", "quadratic_steps", "segment_steps", "program", "steps")
 SOURCES = Sources(
     *(f"machine_code/{name}.py" for name in ("alignment", "code_hash", "kept", "lanes", "native", "program_constants")),
     "base/declared.py",
@@ -26,7 +25,7 @@ SOURCES = Sources(
     *(f"contact/{name}.py" for name in ("casing", "complementarity", "laws", "node_sweeps", "ring", "scene")),
     *(f"time_integration/compiled/{name}.py" for name in _COMPILED),
     "rom/quadratic_terms.py",
-    *(f"time_integration/{name}.py" for name in ("jump_numbers", "state")),
+    "time_integration/state.py",
 )
 """Files that the compiled time integration is made from: a change of what one of them does compiles it again."""
 
@@ -196,10 +195,9 @@ def _take_casing(engine: CompiledEngine, first: CompiledEngine) -> None:
     """Give an engine the constants of the casing's modes of another one, but for their loss."""
     own, other = engine.record[0]["speed"], first.record[0]["speed"]
     mine, theirs = engine.casing_lanes, first.casing_lanes
-    for name in ("keep", "pull", "inverse", "amplitude_by_u", "amplitude_by_d", "jumps"):
+    for name in ("keep", "pull", "inverse"):
         own[name][..., mine] = other[name][..., theirs]
     own["loss"][mine] = 0.0
-    own["jumps"][:, [LOSS_UU, LOSS_UD, LOSS_DD], mine] = 0.0
 
 
 @cache

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -13,8 +12,6 @@ from r37core.contact.scene import Friction, Lining
 from r37core.machine_code.alignment import LANES, NUMBER_BYTES, address_of, aligned_copy, aligned_zeros, padded
 
 from ..integrators import CENTRAL_DIFFERENCE
-from ..jump_numbers import NEVER
-from ..jump_plan import jump_lengths, nearest_casing
 from ..problem import Problem
 from ..quadratic_motion import QuadraticMotion
 from ..segments import Segments
@@ -74,7 +71,7 @@ class LaidOutProblem:
         if segments.increments is None:
             self._edge = EdgeTables(problem, kind, self)
             self._edge.put_into(self.record[0]["edge"])
-        self.put(jumping=segments.jumps is not None, follows_sliding=follows_sliding, **self._flags)
+        self.put(follows_sliding=follows_sliding, **self._flags)
         self.constants = self._table_of(segments)
         self.take(0)
 
@@ -100,7 +97,7 @@ class LaidOutProblem:
 
     def _table_of(self, segments: Segments) -> np.ndarray:
         """The segments as they stand in the record, shape (segments,)."""
-        _, recursion, coupling, plan, clearance, increments = segments
+        _, recursion, coupling, clearance, increments = segments
         fields = {"clearance": clearance}
         if coupling is not None:
             fields["coupling"] = coupling
@@ -109,9 +106,6 @@ class LaidOutProblem:
             modal_fields["increment_by_displacement"] = increments.displacement_factor
             modal_fields["increment_by_velocity"] = increments.velocity_factor
             modal_fields["velocity_by_increment"] = 1.0 / increments.velocity_factor
-        if plan is not None:
-            fields["slow_modes"], modal_fields["jumps"] = plan.slow_modes, plan.jumps
-            modal_fields |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
         fields |= {name: self._spread(values) for name, values in modal_fields.items()}
         table = aligned_zeros((len(clearance),), constants_record(self.mode_lanes, self.capacity.nodes))
         # a node that only pads the vector must not touch
@@ -155,7 +149,7 @@ class LaidOutProblem:
     def _lay_out(self, problem: Problem) -> None:
         m = self.record[0]
         # a node that only pads the vector must neither sit on the axis nor cancel a pivot
-        m["radius"] = m["flight"]["towards"] = m["problem"]["diagonal"] = 1.0
+        m["radius"] = m["problem"]["diagonal"] = 1.0
         m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
         others = constants_record(*self.capacity).itemsize // NUMBER_BYTES - MODAL_ROWS * self.capacity.modes
         m["call"]["other_constants"] = others
@@ -163,7 +157,6 @@ class LaidOutProblem:
         m["problem"]["among"] = -1
         self.put_modes(
             displacement_operator=problem.contact.displacement_operator,
-            size_operator=problem.contact.size_operator,
             outputs=problem.contact.output_operator[None, :, : self._modes],
         )
         self.put(
@@ -180,11 +173,8 @@ class LaidOutProblem:
         )
 
     def _lay_out_ring(self, ring: RingMotion, problem: Problem) -> None:
-        lengths = jump_lengths(problem.grid.steps_per_sample) if problem.choice.jumps else np.empty(0)
         turns = 2.0 * np.pi / problem.grid.steps_per_revolution * ring.nodal_diameters
-        self.put(turn_cosine=np.cos(lengths[:, None] * turns), turn_sine=np.sin(lengths[:, None] * turns))
-        m, pairs = self.record[0], slice(len(ring.modes))
-        m["turn_cosine"][-1, pairs], m["turn_sine"][-1, pairs] = np.cos(turns), np.sin(turns)
+        self.put(turn_cosine=np.cos(turns), turn_sine=np.sin(turns))
 
     def _lay_out_casing(self, problem: Problem, before: LaidOutProblem | None) -> None:
         m, casing = self.record[0], problem.scene.casing
@@ -202,13 +192,6 @@ class LaidOutProblem:
         kept = None if before is None else before._tables
         self._tables = kept if kept is not None and kept.fits(problem) else _CasingTables(problem, self._node_lanes)
         m["call"]["casing_shape"] = address_of(self._tables.shape)
-        if problem.choice.jumps:
-            m["call"]["nearest_casing"] = address_of(self._tables.nearest)
-            lengths, flight = jump_lengths(problem.grid.steps_per_sample), m["flight"]
-            flight["lengths"] = NEVER
-            flight["lengths"][: len(lengths)] = lengths
-            if np.isfinite(rise):
-                flight["decay"][: len(lengths)] = np.exp(-rise * lengths)
 
     def _lay_out_friction(self, problem: Problem, friction: Friction) -> None:
         velocity = problem.casing.rotation_velocity
@@ -258,12 +241,6 @@ class _CasingTables:
         for first in range(0, steps, _ROWS_AT_ONCE):
             theta = problem.casing.theta(np.arange(first, min(first + _ROWS_AT_ONCE, steps))[:, None])
             self.shape[first : first + _ROWS_AT_ONCE, : theta.shape[1]] = problem.scene.casing.shape(theta)
-
-    @cached_property
-    def nearest(self) -> np.ndarray:
-        """The nearest of each interval, for jumps; see nearest_casing."""
-        nearest = nearest_casing(self.shape, self._problem.grid.steps_per_sample)
-        return aligned_copy(nearest, self.shape.shape[1])
 
     def fits(self, problem: Problem) -> bool:
         """True where this problem has the same tables."""

@@ -13,7 +13,6 @@ from r37core.contact.scene import Lining
 from r37core.machine_code.alignment import LANES, Field, aligned_record, padded
 from r37core.rom.quadratic_terms import MOST_QUADRATIC_MODES, mode_pairs
 
-from ..jump_numbers import STRIDES
 from ..state import TOTALS
 
 
@@ -122,13 +121,10 @@ _MODAL_CONSTANTS = (
     # of the recursion: see steps; energy lost per step and squared central difference
     "keep pull inverse loss "
     # increment of a free mode per displacement and per velocity, and one over the latter
-    "increment_by_displacement increment_by_velocity velocity_by_increment "
-    # of jumps over free flight: see time_integration.jump_plan
-    "amplitude_by_u amplitude_by_d"
+    "increment_by_displacement increment_by_velocity velocity_by_increment"
 )
-_NUMBERS_OF_A_JUMP = 8
 
-MODAL_ROWS = len(_MODAL_CONSTANTS.split()) + STRIDES * _NUMBERS_OF_A_JUMP
+MODAL_ROWS = len(_MODAL_CONSTANTS.split())
 """Rows of a speed with a number for each mode: its constants begin with them, and copies them as far as there are modes."""
 
 
@@ -137,22 +133,9 @@ def constants_record(modes: int, nodes: int) -> np.dtype:
     """Record of what changes with the speed while its modes are held, of whole vectors of modes and nodes."""
     return aligned_record(
         _fields(_MODAL_CONSTANTS, modes),
-        _fields("jumps", STRIDES, _NUMBERS_OF_A_JUMP, modes),
         # normal displacement of the last node per force in the three directions on the one before
         _fields("coupling", 3, nodes, nodes),
         _fields("clearance", nodes),  # of the round casing (m)
-        _fields("slow_modes", STRIDES, kind=np.int64),
-    )
-
-
-def _flight_record(modes: int, nodes: int) -> np.dtype:
-    """Record of jumps: amplitudes of the modes, and how far these get beyond in one; how far they bring the nodes; strides."""
-    return aligned_record(
-        _fields("amplitude beyond", modes),
-        _fields("reach", STRIDES, nodes),
-        _fields("across towards", nodes),
-        _fields("decay", STRIDES),
-        _fields("lengths reach_known", STRIDES, kind=np.int64),
     )
 
 
@@ -192,8 +175,8 @@ CALL = aligned_record(
     _fields("first_step blocks speed_index", kind=np.int64),
     # how many steps the time is ahead of their number
     _fields("ahead"),
-    # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each interval
-    _fields("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
+    # addresses of arrays whose sizes are known only then: f(theta) at every step
+    _fields("casing_shape wear samples snapshots", kind=np.int64),
     # constants of all speeds; speed and blocks of each segment; motion at its ends, and largest wear by then
     _fields("constants speed_indices lasting ends worn", kind=np.int64),
     # what each block adds to the clearance (m)
@@ -215,7 +198,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("u increment last_increment", modes),
         _fields("push", modes),  # forces on the modes
         # displacement of the nodes per mode, and the size of it per amplitude that turns
-        _fields("displacement_operator size_operator", 3, nodes, modes),
+        _fields("displacement_operator", 3, nodes, modes),
         _fields("outputs", 1, modes, modes),
         _fields("sample", modes),
         _fields("friction_share", 2, nodes),  # tangential and meridional force per normal force
@@ -238,9 +221,8 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
         _fields("problem", kind=complementarity_record(nodes)),
         _fields("beyond touched", groups, kind=np.int64),
-        # by how much pairs of the casing's modes turn in a jump and, in the last row, in a step
-        _fields("turn_cosine turn_sine", STRIDES + 1, modes // 2),
-        _fields("flight", kind=_flight_record(modes, nodes)),
+        # by how much pairs of the casing's modes turn in a step
+        _fields("turn_cosine turn_sine", modes // 2),
         _fields("lining", kind=LINING),
         _fields("casing", kind=CASING),
         _fields("edge", kind=EDGE),
@@ -253,8 +235,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
         # how much of the record is used: vectors of modes and of nodes; numbers
         _fields("vectors", 2, kind=np.int64),
         _fields("pairs number_of_outputs nodes", kind=np.int64),
-        # whether it jumps, and the direction of friction follows the sliding
-        _fields("jumping follows_sliding", kind=np.int64),
+        _fields("follows_sliding", kind=np.int64),  # whether the direction of friction follows the sliding
         # whether there is a lining; whether displacements are of second order, see time_integration.quadratic_motion
         _fields("lined quadratic", kind=np.int64),
         _fields("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),

@@ -15,10 +15,8 @@ from r37core.machine_code.lanes import OPTIONS, bits_of, inlined, load, numbers_
 from r37core.machine_code.native import object_code
 from r37core.machine_code.program_constants import specialised
 
-from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, release_contact
 from .edge_steps import measure_edge
-from .jump_steps import bound_amplitudes, choose_jump, jump_ahead, turn_jump, turn_step
 from .layout import EXACT_GAP, PUBLISHED, Capacity, Kind, integration_record
 from .quadratic_steps import begin_quadratic, follow_quadratic, push_quadratic
 from .segment_steps import begin_segment, end_segment
@@ -36,6 +34,7 @@ from .steps import (
     record,
     sum_pushes,
     take_gaps,
+    turn_step,
 )
 
 
@@ -92,29 +91,6 @@ def _begin_block(addresses, blades, block):
 
 
 @inlined
-def _choose_jump(addresses, blades, interval, first_stride, left, remaining):
-    """Stride of the longest jump that all blades can do, -1 if there is none."""
-    stride = first_stride
-    for b in range(blades):
-        m = pointed_at(addresses[b])
-        stride = choose_jump(m, interval * node_lanes(m), stride, left, remaining)
-        if stride < 0:
-            break
-    return stride
-
-
-@inlined
-def _jump(addresses, blades, stride):
-    for b in range(blades):
-        m = pointed_at(addresses[b])
-        store(m.block_energy, (1, 0), jump_ahead(m, stride, load(m.block_energy, (1, 0))))
-        if m.pairs > 0:
-            turn_jump(m, stride)
-        m.totals.steps_jumped += m.flight.lengths[stride]
-        leave_casing(m)
-
-
-@inlined
 def _fly(addresses, blades):
     """The free step of all blades, and what the forces on each are to its modes; returns whether there are any."""
     pushed = False
@@ -167,7 +143,7 @@ def _push(m, counted):
 
 @inlined
 def _meet(m, place, lobes):
-    """The forces on a blade after a step; returns whether it is beyond the lining or casing."""
+    """The forces on a blade after a step."""
     beyond = measure_exact_gaps(m, place, lobes) if EXACT_GAP else measure_gaps(m, place, lobes)
     if not beyond:
         if not PUBLISHED and m.follows != 0:
@@ -188,7 +164,6 @@ def _meet(m, place, lobes):
             measure_edge(m, place, lobes)
         if m.lined != 0:
             follow_gaps(m, m.contact.opened, place)
-    return beyond
 
 
 @inlined
@@ -211,16 +186,13 @@ def _integrate(addresses, blades):
     immediate = np.isinf(first.casing.rise)
     decay = 0.0 if immediate else np.exp(-first.casing.rise)
     steps_per_block = first.steps_per_block
-    coarse_per_block = (steps_per_block + COARSE - 1) // COARSE
-    # any integers for numba: what it gives a plain 0 or 1 to is compiled for just that, too
-    zero, shortest = int(np.int64(0)), int(np.int64(1))
-    # whether a node is beyond the lining or casing, or there are forces at t_n; whether the gaps at t_n are known
-    busy, bounded, within, first_stride, measured = False, False, True, shortest, False
+    # any integer for numba: what it gives a plain 0 to is compiled for just that, too
+    zero = int(np.int64(0))
+    # whether the gaps at t_n are known
+    within, measured = True, False
     done = kept = segment = until = zero
     first_block = first.call.first_step // steps_per_block
     place = first.call.first_step % first.steps_per_revolution
-    # of the steps' intervals in which the casing's nearest is known, the first of this block
-    interval = place // steps_per_block * coarse_per_block
     while done < first.call.blocks and within:
         begins = done == until
         if begins:
@@ -229,52 +201,30 @@ def _integrate(addresses, blades):
         remaining = 0.0 if immediate else np.exp(-first.casing.rise * (start + first.call.ahead))
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
-            busy, bounded, first_stride = False, False, shortest
             if first.quadratic != 0:
                 for b in range(blades):
                     begin_quadratic(pointed_at(addresses[b]))
-            if not PUBLISHED:
-                busy = _find_forces(addresses, blades)
+            any_forces = not PUBLISHED and _find_forces(addresses, blades)
             if first.lined != 0:
-                busy |= _any_pressing(addresses, blades)
-                measured = busy
+                measured = any_forces or _any_pressing(addresses, blades)
         _begin_block(addresses, blades, done)
-        position = 0
-        while position < steps_per_block:
-            if position % COARSE == 0 and first.jumping != 0 and not busy:
-                if not bounded:
-                    for b in range(blades):
-                        bound_amplitudes(pointed_at(addresses[b]))
-                    bounded = True
-                left = steps_per_block - position
-                stride = _choose_jump(addresses, blades, interval + position // COARSE, first_stride, left, remaining)
-                first_stride = max(min(stride + 1, STRIDES - 1), 1)
-                if stride >= 0:
-                    _jump(addresses, blades, stride)
-                    measured = False
-                    remaining *= first.flight.decay[stride]
-                    position += first.flight.lengths[stride]
-                    continue
-            if first.lined != 0 and not measured:
-                _measure(addresses, blades, place + position, first.casing.amplitude * (1.0 - remaining))
-                measured = True
-            position += 1
+        if first.lined != 0 and not measured:
+            _measure(addresses, blades, place, first.casing.amplitude * (1.0 - remaining))
+            measured = True
+        for position in range(place + 1, place + steps_per_block + 1):
             remaining *= decay
-            here = place + position if place + position < first.steps_per_revolution else 0
+            here = position if position < first.steps_per_revolution else 0
             lobes = first.casing.amplitude * (1.0 - remaining)
             pushed = _fly(addresses, blades)
             if pushed:
                 _share_pushes(addresses, blades)
-            busy = False
             for b in range(blades):
                 m = pointed_at(addresses[b])
                 if not PUBLISHED and pushed:
                     _push(m, b == 0)
                 if m.pairs > 0:
                     turn_step(m)
-                busy |= _meet(m, here, lobes)
-            if pushed or (PUBLISHED and busy):
-                bounded = False
+                _meet(m, here, lobes)
         # of the samples from the first snapshot's revolution on, every so many-th
         due = first_block + done + 1 - first.samples_before_snapshots
         taken = first.samples_per_snapshot > 0 and due > 0 and due % first.samples_per_snapshot == 0
@@ -282,9 +232,9 @@ def _integrate(addresses, blades):
         kept += taken
         done += 1
         # counted on, not divided: a block may have two steps
-        place, interval = place + steps_per_block, interval + coarse_per_block
+        place += steps_per_block
         if place == first.steps_per_revolution:
-            place = interval = zero
+            place = zero
         if done == until or not within:
             for b in range(blades):
                 end_segment(pointed_at(addresses[b]), segment)

@@ -88,6 +88,25 @@ def predict(m, lost):
 
 
 @inlined
+def turn_step(m):
+    """Write the pairs of the casing's modes in the rotor's frame after a step, which has turned on."""
+    _turn(m, m.u)
+    _turn(m, m.increment)
+    _turn(m, m.last_increment)
+
+
+@inlined
+def _turn(m, amplitudes):
+    pairs = m.pairs
+    first = mode_lanes(m) - 2 * pairs
+    for j in range(0, pairs, LANES):
+        cosine, sine = load(m.turn_cosine, j), load(m.turn_sine, j)
+        c, s = load(amplitudes, first + j), load(amplitudes, first + pairs + j)
+        store(amplitudes, first + j, cosine * c - sine * s)
+        store(amplitudes, first + pairs + j, sine * c + cosine * s)
+
+
+@inlined
 def measure_gaps(m, place, lobes):
     """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
     shape = numbers_at(m.call.casing_shape)
