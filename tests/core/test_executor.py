@@ -34,6 +34,12 @@ if what == "none":
     sys.exit()
 if what == "modules":
     Path(snakemake.output[0]).write_text(" ".join({"wave", "r37core.figures.maps", "r37core.rom.steps"} & set(sys.modules)))
+if what == "dask":
+    import xarray
+    from r37core.base.dataset_file import read_dataset, write_dataset
+    write_dataset(xarray.Dataset({"flag": ("place", [1, 2])}), "some.nc")
+    read_dataset("some.nc")
+    Path(snakemake.output[0]).write_text(str([name for name in sys.modules if name.startswith("dask.")]))
 if what == "ready":
     from r37core.time_integration import speed_job
     Path(snakemake.output[0]).write_text(str(sorted(task for _, task in speed_job._READY)))
@@ -128,6 +134,46 @@ def test_what_jobs_have_in_common_is_loaded_before_them(start):
         job = {"speed": "1000", "task": number}
         assert status_of(start("ready", step="r37core.time_integration.speed_job.simulate", job=job)) == 0
         assert Path("out").read_text() == found
+
+
+@pytest.fixture
+def work(start):
+    """Does a job that has all in common with others of the same task; gives its status and process."""
+    known = set()
+
+    def one(what, task):
+        params = {"step": "r37core.time_integration.speed_job.simulate", "job": {"speed": "1000", "task": task}}
+        if task not in known:
+            # whose missing model no other looks for
+            known.add(task)
+            status_of(start("0", **params))
+        return status_of(start(what, **params)), process_of()
+
+    return one
+
+
+def test_jobs_with_all_in_common_are_done_by_one_process_after_another(work):
+    """It ends with a job that fails, does none of another kind, and may be killed while it waits."""
+    (_, first), (_, other), (_, second) = (work("0", task) for task in "aba")
+    assert first == second != other
+    assert work("3", "a") == (3, first)
+    status, third = work("0", "a")
+    assert (status, third == first) == (0, False)
+    os.kill(third, signal.SIGKILL)
+    wait_until(lambda: not Path(f"/proc/{third}").exists(), LONGEST, "the end of a process")
+    assert work("0", "a")[0] == 0
+
+
+def test_no_more_processes_wait_than_work(work, server):
+    for task in "abcd":
+        assert work("0", task)[0] == 0
+    children = Path(f"/proc/{server._process.pid}/task/{server._process.pid}/children")
+    wait_until(lambda: len(children.read_text().split()) == 2, LONGEST, "two processes")
+
+
+def test_no_job_imports_dask(start, server):
+    assert status_of(start("dask")) == 0
+    assert Path("out").read_text() == "[]"
 
 
 def test_jobs_side_by_side_and_one_that_is_killed(start, server):

@@ -74,17 +74,20 @@ def prepare(input: Any, output: Any, params: Any) -> None:
     JOB_LOG.debug(f"{params.speed:g} rad/s: highest mode {highest:.6g} rad/s, steps of {step:.6g} s")
 
 
-def make_ready(input: Any, params: Any) -> None:
-    """Load what all jobs of a model and task have in common, once, for a server that forks them. Raises what the job would."""
+def make_ready(input: Any, params: Any) -> tuple[str, str]:
+    """Load what all jobs of a model and task have in common, once, for a server that forks them; gives model and task.
+
+    Raises what the job would.
+    """
     (model, *stress), task = as_list(input.models), params.job["task"]
-    if (model, task) in _READY:
-        return
-    _READY.add((model, task))
-    wanted = from_json(Task, task)
-    simulation_of(_kept(read_contact_model, model), float(params.job["speed"]), wanted.scene, wanted.choice)
-    if stress:
-        for operator in _kept(read_stress_operators, *stress).values():
-            _ = operator.deviatoric
+    if (model, task) not in _READY:
+        _READY.add((model, task))
+        wanted = from_json(Task, task)
+        simulation_of(_kept(read_contact_model, model), float(params.job["speed"]), wanted.scene, wanted.choice)
+        if stress:
+            for operator in _kept(read_stress_operators, *stress).values():
+                _ = operator.deviatoric
+    return model, task
 
 
 def _kept(read: Callable[[str], Any], file: str) -> Any:
