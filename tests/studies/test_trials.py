@@ -97,6 +97,26 @@ def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact,
     np.testing.assert_allclose(taken[1], 0.5 * taken[0], rtol=1e-12)
 
 
+def test_a_share_of_the_limit_is_of_the_fastest_mode_at_the_middle_speed(contact):
+    """The same step at all speeds, that of 1% above the middle one: 2 over the highest angular frequency."""
+    choice = replace(CHOICE, integrator="central_difference", samples_per_revolution=1)
+    case = case_of(choice, speeds=(1490.0, 1495.0, 1500.0), share_of_limit=0.9)
+    limit = 2.0 / contact.modes_at(1.01 * 1495.0)[0].max()
+    taken = runner.run_case(case, contact, None)["time_step"].values
+    # a whole number of them in a revolution
+    revolutions = 2.0 * np.pi / np.array(case.speeds)
+    np.testing.assert_allclose(taken, revolutions / np.ceil(revolutions / (0.9 * limit)), rtol=1e-9)
+
+
+def test_starting_costs_what_the_processes_take(monkeypatch):
+    """User and system time of children, the median of three."""
+    spent = iter([(1.0, 0.5), (2.0, 0.75), (2.5, 1.0), (5.0, 1.5)])
+    monkeypatch.setattr(estimate_tables.subprocess, "run", lambda *command, check: None)
+    times = (SimpleNamespace(children_user=user, children_system=system) for user, system in spent)
+    monkeypatch.setattr(estimate_tables.os, "times", lambda: next(times))
+    assert estimate_tables.time_start_up() == 1.25
+
+
 def test_extremes_are_cases_or_reasons_and_each_has_one_with_half_its_step(settings):
     planned = stability.cases(settings)
     # direct contact has no lining
