@@ -207,9 +207,9 @@ def _drawn(drawing: str, *arguments: Any, **more: Any) -> Figure:
     # chosen now, as pyplot would when it draws: the style takes one without a display where none has been
     matplotlib.get_backend()
     with plt.rc_context():
-        from r37core.figures.style import PARAMETERS
+        from r37core.figures.style import take_style
 
-        plt.rcParams.update(PARAMETERS)
+        take_style()
         return function_named(drawing)(*arguments, **more)
 
 

@@ -1,6 +1,9 @@
 """Figures: captions, sizes that print as they are, one colour per blade everywhere, and what the new ones show."""
 
+import os
 import re
+import subprocess
+import sys
 from functools import partial
 
 import matplotlib.pyplot as plt
@@ -220,6 +223,17 @@ def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
         assert b"CreationDate" not in found[0][1]
         assert Image.open(tmp_path / "one.png").text["Description"] == "What is seen."
     assert tuple(figure.get_size_inches()) == pytest.approx((style.PAGE, style.PAGE / 2))
+
+
+def test_a_user_s_matplotlibrc_changes_no_figure(tmp_path):
+    """It may ask for LaTeX on a machine without."""
+    (tmp_path / "matplotlibrc").write_text("text.usetex: True\nfont.size: 20\nimage.cmap: gray\n")
+    code = (
+        "from r37core.figures import style; print(*(style.plt.rcParams[n] for n in ('text.usetex', 'font.size', 'image.cmap')))"
+    )
+    environment = os.environ | {"MATPLOTLIBRC": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "8.0", "viridis"]
 
 
 def test_blades_of_several_materials_have_a_yield_line_each(datasets):

@@ -82,7 +82,14 @@ PARAMETERS: dict[Any, Any] = {
 }
 """Matplotlib's parameters of all figures."""
 
-plt.rcParams.update(PARAMETERS)
+
+def take_style() -> None:
+    """Make the style that of Matplotlib, whatever a user's matplotlibrc says: it may ask for LaTeX where there is none."""
+    matplotlib.rcdefaults()
+    plt.rcParams.update(PARAMETERS)
+
+
+take_style()
 
 
 def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
