@@ -5,8 +5,9 @@ from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
-from r37core.base.process_wide import ProcessWide, one_thread
+from r37core.base.process_wide import ProcessWide
 from r37core.config import ConfigError
 
 from .stages import bar
@@ -27,13 +28,13 @@ def parallel_results(calls: Sequence[Callable[[], Result]], cores: int, what: st
     that they are counted by, a bar says how far they are. The processes are those of the backend that the caller has chosen by
     joblib's `parallel_config`, else of this machine.
     """
-    # imported here: what computes nothing does not wait for them
-    from joblib import Parallel, delayed
-
     processes, shown = min(cores, len(calls)), bar(calls, what, unit) if unit else calls
     if processes <= 1:
         with _alone():
             return [call() for call in shown]
+    # imported here: what needs no other process does not wait for it
+    from joblib import Parallel, delayed
+
     with _POOL:
         try:
             parallel = Parallel(n_jobs=processes, return_as="generator")
@@ -48,8 +49,8 @@ def _called(call: Callable[[], Result]) -> Result:
         return call()
 
 
-_alone = ProcessWide(one_thread)
-"""While `_alone()` lasts, the linear algebra library has one thread."""
+_alone = ProcessWide(lambda: threadpool_limits(1))
+"""While `_alone()` lasts, linear algebra has one thread: that of NumPy, since recipes see to the other library themselves."""
 
 _POOL = threading.Lock()
 """Held by the thread that the worker processes work for: joblib has one set of them."""

@@ -5,8 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 import xarray as xr
-from scipy.signal import find_peaks
 
+from r37core.base.peaks import prominent_peaks
 from r37core.base.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 
@@ -99,7 +99,7 @@ def _worth(measured: np.ndarray, places: np.ndarray, choice: RefinementChoice) -
 def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:
     """Mask of the intervals that touch a peak or, next to it without a gap, points within the share `peak` of its height."""
     # the lowest value at both ends, so that a peak on the first or last speed counts and a level curve has none
-    peaks, _ = find_peaks(np.concatenate([[curve.min()], curve, [curve.min()]]), prominence=choice.prominence)
+    peaks = prominent_peaks(np.concatenate([[curve.min()], curve, [curve.min()]]), choice.prominence)
     near = np.zeros(len(curve), dtype=bool)
     for peak in peaks - 1:
         high = curve >= (1.0 - choice.peak) * curve[peak]

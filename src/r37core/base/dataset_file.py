@@ -94,17 +94,16 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
 
     Coordinates carry no fill value, as the CF conventions ask. Arrays carry checksums, so that reading finds a flipped bit.
     """
-    dataset = dataset.assign_attrs(FILE_ATTRIBUTES | dict(provenance or {}))
-    with NETCDF_LOCK, atomic_write(file) as partial:
-        dataset.to_netcdf(partial, engine="netcdf4", encoding=_encoding(dataset))
+    attributes = FILE_ATTRIBUTES | dict(provenance or {})
+    write_groups([("/", dataset.assign_attrs(attributes))], file, {})
 
 
 def write_groups(groups: Iterable[tuple[str, xr.Dataset]], file: Path | str, provenance: Mapping[str, object]) -> None:
     """Write datasets as the groups of these names of one netCDF4 file, as `write_dataset` does, one after another."""
-    with NETCDF_LOCK, atomic_write(file) as partial:
-        xr.Dataset(attrs=FILE_ATTRIBUTES | dict(provenance)).to_netcdf(partial, engine="netcdf4")
+    with new_netcdf(file, provenance) as opened:
         for name, dataset in groups:
-            dataset.to_netcdf(partial, mode="a", engine="netcdf4", group=name, encoding=_encoding(dataset))
+            # to_netcdf would import dask's scheduler wherever it is installed
+            dataset.dump_to_store(xr.backends.NetCDF4DataStore(opened, name, "a"), encoding=_encoding(dataset))
 
 
 def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, float | bool | None]]:

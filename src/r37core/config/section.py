@@ -42,7 +42,7 @@ class Section(BaseModel):
     one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
     refuse_several: ClassVar[tuple[tuple[str, ...], ...]] = ()
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False, defer_build=True)
 
     if TYPE_CHECKING:
         # keys that a dataclass of the computation declares (r37core.config.declaring)

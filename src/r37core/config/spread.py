@@ -1,9 +1,9 @@
 """Distributions of numbers that are never known exactly, as a configuration gives them."""
 
 from functools import cached_property
+from statistics import NormalDist
 from typing import Annotated
 
-import scipy
 from pydantic import AfterValidator, Field
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber
@@ -13,6 +13,10 @@ from .section import LeftOut, Section, Unique, left_out, plain, refused
 Width = Annotated[float, Field(ge=1e-12, le=1e15)]
 Percent = Annotated[float, Field(ge=1e-6, le=1000)]
 Number = Annotated[float, Field(ge=-1e15, le=1e15)]
+
+
+_LEAST_SHARE = 2.0**-64
+"""Smallest share of a normal distribution that a value is drawn for: 9 standard deviations below the mean."""
 
 
 def _ascending(bounds: list[float]) -> list[float]:
@@ -73,7 +77,7 @@ class SpreadEntry(Section):
         if key.startswith("uniform"):
             value = nominal + (2.0 * share - 1.0) * width
         elif key.startswith("normal"):
-            value = nominal + float(scipy.special.ndtri(share)) * width
+            value = nominal + NormalDist().inv_cdf(max(share, _LEAST_SHARE)) * width
         elif key == "between":
             value = first + share * (numbers[1] - first)
         elif key == "log_between":

@@ -1,19 +1,24 @@
 """Campbell diagram: frequencies over speed, modes followed and named by shape, crossings with engine orders; as a dataset."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+import scipy
 import xarray as xr
-from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq, linear_sum_assignment
 
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.contact.casing import approach
-from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.rotation import BucklingError
+
+if TYPE_CHECKING:
+    # which imports scipy.linalg
+    from r37core.rom.reduced_model import ReducedModel
 
 _SPARE_MODES = 6
 _NAMED_AMONG = 8
@@ -48,13 +53,13 @@ def crossing_speed(speeds: np.ndarray, frequency: np.ndarray, order: int) -> flo
     speed, is interpolated by a cubic spline.
     """
     squared_speeds = speeds**2
-    spline = CubicSpline(squared_speeds, (2.0 * np.pi * frequency) ** 2)
+    spline = scipy.interpolate.CubicSpline(squared_speeds, (2.0 * np.pi * frequency) ** 2)
     above = spline(squared_speeds) - order**2 * squared_speeds
     change = np.flatnonzero((above[:-1] > 0.0) & (above[1:] <= 0.0))
     if not len(change):
         return np.nan
     bracket = squared_speeds[change[0]], squared_speeds[change[0] + 1]
-    return float(np.sqrt(brentq(lambda s: float(spline(s)) - order**2 * s, *bracket, xtol=1e-9)))
+    return float(np.sqrt(scipy.optimize.brentq(lambda s: float(spline(s)) - order**2 * s, *bracket, xtol=1e-9)))
 
 
 def modal_assurance(first: np.ndarray, second: np.ndarray, mass: np.ndarray) -> np.ndarray:
@@ -74,7 +79,7 @@ def campbell_diagram(model: ReducedModel, speeds: np.ndarray, modes: int) -> Cam
     for speed in speeds[1:]:
         frequency, shape = model.modes(speed, modes + _SPARE_MODES)
         assurance = modal_assurance(followed, shape, model.mass)
-        _, match = linear_sum_assignment(-assurance)
+        _, match = scipy.optimize.linear_sum_assignment(-assurance)
         continuity.append(assurance[np.arange(len(match)), match])
         followed = shape[:, match]
         frequencies.append(frequency[match])
@@ -95,7 +100,7 @@ def name_modes(model: ReducedModel, shapes: np.ndarray, count: int) -> tuple[tup
     """
     norms = np.einsum("ik,ij,jk->k", shapes, model.mass, shapes)
     assurance = (model.shape_products @ shapes) ** 2 / model.shape_norms[:, None] ** 2 / norms
-    _, named = linear_sum_assignment(-assurance)
+    _, named = scipy.optimize.linear_sum_assignment(-assurance)
     others = [rank for rank in range(shapes.shape[1]) if rank not in set(named.tolist())]
     order = np.array([*named, *others])[:count]
     names = (*model.shape_names, *map(str, range(len(named) + 1, count + 1)))[:count]

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 import pandas as pd
+import scipy
 import xarray as xr
-from scipy.interpolate import CubicSpline
 
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import RingMode
@@ -64,7 +64,9 @@ def coincidences(frequency: xr.DataArray, mode: RingMode, wave: str) -> Iterator
     crossing_speeds = {
         float(speed)
         for sign in (1.0, -1.0)
-        for speed in CubicSpline(speeds, frequency.values - sign * seen_from_rotor(mode, wave, speeds)).roots(extrapolate=False)
+        for speed in scipy.interpolate.CubicSpline(speeds, frequency.values - sign * seen_from_rotor(mode, wave, speeds)).roots(
+            extrapolate=False
+        )
         if speed > 0.0
     }
     for speed in sorted(crossing_speeds):

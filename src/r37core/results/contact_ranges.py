@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy.signal import find_peaks, peak_widths
+
+from r37core.base.peaks import half_width
 
 from .columns import DROP_WITHIN, NOT_RESOLVED, SOME_REVOLUTIONS
 from .danger import ranges_of, ratio_to_yield
@@ -100,21 +101,13 @@ def _row(
     if exceedance and not peak_alone:
         # ends of the row itself, which may be single speeds
         columns |= {"some_revolutions_from_rad_s": within.begin, "some_revolutions_to_rad_s": within.end}
-        if len(inside) <= 2 and 0 < _width(level, index) <= 2:
+        if len(inside) <= 2 and 0 < half_width(level, index) <= 2:
             gap = np.diff(speeds[index - 1 : index + 2]).max()
             notes.append(f"{NOT_RESOLVED}: one or two speeds show the peak, {gap:.3g} rad/s apart")
     if ended:
         columns["peak_motion_scatter_m"] = _scatter(speeds, level, index)
         columns["fall_speed_rad_s"], columns["fall_speed_scatter_rad_s"] = _fall(speeds, level, index)
     return interaction_row(response, index, response.isel(speed=inside), columns, "; ".join(notes))
-
-
-def _width(level: np.ndarray, index: int) -> int:
-    """Number of speeds about a peak above half of its height over its surroundings; 0 of what is not a peak."""
-    if index not in find_peaks(level)[0]:
-        return 0
-    _, _, left, right = peak_widths(level, [index])
-    return int(np.floor(right[0]) - np.ceil(left[0])) + 1
 
 
 def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
-from scipy.signal import find_peaks
 
+from r37core.base.peaks import prominent_peaks
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
@@ -98,8 +98,8 @@ def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, ch
     if not largest > 0.0:
         return
     # a floor at both ends gives peaks there too: no interactions themselves, they end the reach of their neighbours
-    indices = find_peaks(np.concatenate([[0.0], curve, [0.0]]), prominence=choice.prominence * largest)[0] - 1
-    inner = find_peaks(curve, prominence=choice.prominence * largest)[0]
+    indices = prominent_peaks(np.concatenate([[0.0], curve, [0.0]]), choice.prominence * largest) - 1
+    inner = prominent_peaks(curve, choice.prominence * largest)
     for index in indices.tolist():
         low = np.flatnonzero(curve <= curve[index] - choice.prominence * largest)
         top = range(int(low[low < index].max(initial=-1)) + 1, int(low[low > index].min(initial=len(curve))))

@@ -4,9 +4,10 @@ import re
 from typing import Any
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.ndimage import median_filter
-from scipy.signal import find_peaks
+
+from r37core.base.peaks import prominent_peaks
 
 from .campbell import crossing_speed
 from .interaction_choice import InteractionChoice
@@ -99,10 +100,10 @@ def _lines_at_modes(
     amplitude[order < 0.5] = 0.0
     padded = np.pad(amplitude, lobes * per_order)
     neighbours = np.maximum(padded[: len(amplitude)], padded[-len(amplitude) :])
-    strong = amplitude >= np.maximum(STRONG * amplitude.max(), CLEAR * median_filter(amplitude, per_order))
+    strong = amplitude >= np.maximum(STRONG * amplitude.max(), CLEAR * scipy.ndimage.median_filter(amplitude, per_order))
     frequency = campbell["frequency"].interp(speed=speed)
     lines = []
-    for index in find_peaks(np.where(strong & (amplitude >= neighbours), amplitude, 0.0))[0].tolist():
+    for index in prominent_peaks(np.where(strong & (amplitude >= neighbours), amplitude, 0.0)).tolist():
         distance = order[index] * speed / (2.0 * np.pi * frequency.values) - 1.0
         distance = np.where((distance >= -choice.below) & (distance <= choice.above), np.abs(distance), np.inf)
         if np.isfinite(distance.min()):

@@ -13,6 +13,7 @@ from typing import Any
 import r37core
 from r37core.base.io import Named, function_named, room_for, scratch_folder
 from r37core.base.plain import to_plain
+from r37core.base.process_wide import one_thread
 from r37core.config import Settings
 from r37core.machine_code.kept import kept_file, numerics
 from r37core.plans.code import CodeHashes
@@ -71,7 +72,8 @@ class Recipe:
     def _make(self, file: Path, folder: Path, attributes: Mapping[str, Any]) -> None:
         files = {key: part.file(folder, attributes) for key, part in self.inputs.items()}
         LOGGER.info("%s: %s", self.blade, self.title)
-        with scratch_folder() as aside:
+        # SciPy has a library of its own, which simulations do not load
+        with one_thread(), scratch_folder() as aside:
             # a mesh is also written for Gmsh
             output = {file.stem: file, file.suffix[1:]: file, "msh": aside / "mesh.msh"}
             # what a file says of its making is said by whom it is read for

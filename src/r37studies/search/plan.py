@@ -16,7 +16,6 @@ from r37studies.carried import Carried
 
 from .checks import search_can_be_run
 from .designs import FOLDER, START, choice_of, designs_of, is_asked
-from .evaluation import Evaluation
 from .section import SECTION
 
 DATASET, TABLE = "<results>/search.nc", "<results>/search.csv"
@@ -38,6 +37,9 @@ class Search:
         Runs of other designs follow from the same as the start's.
         """
         settings, designs = self.settings, designs_of(self.settings)
+        # which imports what makes structures, and only a search needs here
+        from .evaluation import Evaluation
+
         start = Evaluation(settings, Path(), one_by_one, 1).runs(START, None)
         entries = [plain(designs.start), *(plain(settings.scene_designs.entries[scene]) for scene in designs.scenes)]
         choice = choice_of(settings)
