@@ -126,8 +126,7 @@ def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
 
 def _check(options: argparse.Namespace) -> None:
     from r37core.config.remarks import remarks_at_end
-    from r37core.plans.extent import extent_of
-    from r37core.product.extensions import load_settings, simulations_of_members
+    from r37core.product.extensions import load_settings
     from r37core.product.remarks import remarks
 
     from .call_configuration import read_configuration
@@ -135,14 +134,9 @@ def _check(options: argparse.Namespace) -> None:
     first, *changes = options.config or [None]
     configuration = read_configuration(first).changed_by(changes)
     settings = load_settings(configuration.document, configuration.root)
-    extent, measured = extent_of(settings, simulations_of_members(settings)), settings.fidelity.measured
     print(f"blades: {', '.join(settings.blade_names)}")
     print(f"scenes: {', '.join(settings.scene_names)}")
     print(f"level: {settings.fidelity_name}")
-    print(f"simulations: {extent.wording}")
-    if measured is not None:
-        cost = extent.cpu_time(measured.cpu_s_per_run)
-        print(f"their CPU time: about {cost} at most, as measured on the reference blade; of yours: snakemake estimate")
     for remark in [*remarks(settings), *remarks_at_end(settings)]:
         print(remark)
 

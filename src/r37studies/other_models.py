@@ -18,13 +18,11 @@ class ModelChoice:
     """A model of a blade made for some cases, with the tip line and contact of the run.
 
     - `nodes`: of the mesh, or OWN_MESH. `boundary_nodes`: 0 for as many as the mesh has room for by default.
-    - `stress_region`: `whole` blade or `submesh`, the regions of this run, where stress is recovered.
     """
 
     nodes: int
     boundary_nodes: int
     fixed_interface_modes: int
-    stress_region: str
 
     @property
     def name(self) -> str:
@@ -34,11 +32,10 @@ class ModelChoice:
     @classmethod
     def named(cls, name: str) -> Self:
         """The choice of this name."""
-        nodes, boundary_nodes, modes, region = name.split("_")
-        return cls(int(nodes), int(boundary_nodes), int(modes), region)
+        return cls(*map(int, name.split("_")))
 
 
-MODEL_NAME = r"\d+_\d+_\d+_(submesh|whole)"
+MODEL_NAME = r"\d+_\d+_\d+"
 """Pattern of ModelChoice.name."""
 
 MODEL_FILES = {

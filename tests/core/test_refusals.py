@@ -15,7 +15,6 @@ from r37core.base.io import TextFileError
 from r37core.base.speeds import exact_text
 from r37core.base.yaml_file import load_yaml, load_yaml_with_lines, yaml_text
 from r37core.config import ConfigError, Document, command_line_document
-from r37core.config.remarks import remarks_on_speeds
 from r37core.config.section import Unique
 from r37core.product.extensions import read_settings
 from r37core.product.schemas import MODELS
@@ -113,11 +112,6 @@ def test_a_run_of_too_many_steps_is_refused_and_a_long_one_says_so(config_copy):
     message = r"^r37\.sweep: speeds_rpm: found 4\.9\d* rad/s, .*; allowed: speeds from 4\.91 rad/s \(46\.9 rpm\) with"
     with pytest.raises(ConfigError, match=message):
         read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds_rpm": [46.8]}, "r37.sweep"))
-    settings = read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds": [5]}))
-    assert remarks_on_speeds(settings) == [
-        "speeds: at 5 rad/s a run of 9.82e+08 steps (5000 revolutions) takes about 98 s of CPU time"
-    ]
-    assert not remarks_on_speeds(read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds": [60]})))
 
 
 def test_a_run_that_would_not_fit_in_memory_is_refused(config_copy):

@@ -46,7 +46,7 @@ def test_init_writes_what_is_shipped(root, tmp_path, capsys):
     (study / "config/my.yaml").write_text("speeds: [1900, 2500]\n")
     assert main(["check", str(study / "config/config.yaml"), str(study / "config/my.yaml")]) == 0
     told = capsys.readouterr().out
-    assert "simulations: 28\ntheir CPU time: about 2.8 s at most" in told
+    assert "simulations: sweep 28\nCPU time: about " in told
     assert "speeds: up to 2500 rad/s, and structure.maximum_speed_rad_s is 2000" in told
 
 

@@ -7,18 +7,18 @@ import pytest
 from test_workflow_plans import L50, PLACES, REF, REFINED, of, refining, sweeps_of, with_scene  # noqa: F401
 
 from r37core.config import command_line_document
+from r37core.plans.extent import extent_of
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
 from r37studies.run_ups.plan import RunUps
 from r37studies.tolerances.members import Tolerances
-from r37studies.trials import estimate
 
 
 def test_speeds_of_all_rounds_are_reduced_and_a_round_reads_what_the_one_before_asked_for(refining):
     """The estimate of their number is their share."""
-    assert estimate.values(refining.settings, {})["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
+    assert extent_of(refining.settings, {})["sweep"]["Ref", "abradable"].number == max(1.5 * 3, int(0.2 * 21))
     names = [file.rsplit("_", 1)[1] for file in refining.speed_files(REF)]
     assert names == ["900.npz", "925.npz", "950.npz", "1000.npz"]
     with pytest.raises(KeyError):

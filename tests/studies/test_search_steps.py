@@ -14,6 +14,7 @@ from workflow_runs import overlay
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import Named
+from r37core.plans.extent import Runs
 from r37core.product.extensions import read_settings
 from r37core.rom.rotation import BucklingError
 from r37core.stress.operator import StressOperator
@@ -23,7 +24,7 @@ from r37core.sweep.recipe import Recipe, recipes
 from r37studies.search import evaluation, steps
 from r37studies.search.designs import NOMINAL, designs_of
 from r37studies.search.evaluation import Evaluation
-from r37studies.search.plan import Search, remarks, simulations
+from r37studies.search.plan import Search, simulations
 
 FILE = Recipe.file
 
@@ -184,8 +185,7 @@ def test_the_plan_of_a_search(folder):
     overlay(folder, "config.yaml", "search: { designs: 7, first: 3 }")
     settings = read_settings(folder)
     plan = Search(settings)
-    assert plan.budget(None) == [3, 2, 2] and simulations(settings) == {("Free", "abradable"): 8 * 3}
-    assert remarks(settings)[0].startswith("search: 7 designs of 'Free' in rounds of 2, at most 3 simulations of each")
+    assert plan.budget(None) == [3, 2, 2] and simulations(settings) == {("Free", "abradable"): Runs(8 * 3, 8 * 3, models=7)}
     carried = pickle.loads(pickle.dumps(plan.carried(None))).settings
     assert Search(carried).made_of(None) == plan.made_of(None)
 

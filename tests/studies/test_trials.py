@@ -17,6 +17,7 @@ from workflow_runs import overlay
 
 from r37core.base.plain import from_plain, to_plain
 from r37core.config import command_line_document
+from r37core.plans.extent import extent_of
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
@@ -47,7 +48,7 @@ def test_cases_are_planned_without_what_runs_them():
 
 def test_a_case_is_plain_data():
     lined = case_of(scene=replace(ABRADABLE, friction=None), crossing=("1B", None))
-    model = ModelChoice(OWN_MESH, 8, 10, "submesh")
+    model = ModelChoice(OWN_MESH, 8, 10)
     for case in (lined, replace(lined, model=model)):
         assert from_plain(Case, json.loads(json.dumps(to_plain(case)))) == case
     assert re.fullmatch(MODEL_NAME, model.name) and ModelChoice.named(model.name) == model
@@ -108,21 +109,12 @@ def test_a_share_of_the_limit_is_of_the_fastest_mode_at_the_middle_speed(contact
     np.testing.assert_allclose(taken, revolutions / np.ceil(revolutions / (0.9 * limit)), rtol=1e-9)
 
 
-def test_starting_costs_what_the_processes_take(monkeypatch):
-    """User and system time of children, the median of three."""
-    spent = iter([(1.0, 0.5), (2.0, 0.75), (2.5, 1.0), (5.0, 1.5)])
-    monkeypatch.setattr(estimate_tables.subprocess, "run", lambda *command, check: None)
-    times = (SimpleNamespace(children_user=user, children_system=system) for user, system in spent)
-    monkeypatch.setattr(estimate_tables.os, "times", lambda: next(times))
-    assert estimate_tables.time_start_up() == 1.25
-
-
 def test_extremes_are_cases_or_reasons_and_each_has_one_with_half_its_step(settings):
     planned = stability.cases(settings)
     # direct contact has no lining
     assert "bars/10__abradable" in planned and "bars/10__direct" not in planned
     names = stability.values(settings, {})["compared"]
-    assert len(planned) == 2 * len(names) > 200 and names["lobes/5__direct"] == [half := "lobes/5__direct__half_step"]
+    assert len(planned) == 2 * len(names) > 70 and names["lobes/5__direct"] == [half := "lobes/5__direct__half_step"]
     assert planned[half] == replace(planned["lobes/5__direct"], half_step=True)
     refused = [case for case in planned.values() if isinstance(case, str)]
     assert 0 < len(refused) < len(planned)
@@ -189,25 +181,27 @@ def test_the_estimate_is_of_a_sample_of_each_blade_and_scene(root):
     settings = read_settings(root, command_line_document(changes))
     cases = estimate.cases(settings)
     assert list(cases) == ["Ref__abradable", "Ref__direct", "L50__abradable", "L50__direct"]
-    assert estimate.values(settings, {})["runs"]["Ref__abradable"] == 1251
+    assert estimate.values(settings, extent_of(settings, {}))["runs"]["sweep"]["Ref__abradable"] == (1251, 1251)
     speeds = cases["Ref__abradable"].speeds
     assert len(speeds) == 25 and np.mean(speeds) == pytest.approx(1375.0, abs=1.0)
     few = read_settings(root, command_line_document(changes | {"speeds": [900, 1234.5]}))
-    assert estimate.cases(few)["Ref__abradable"].speeds == (1234.5,)
+    assert estimate.cases(few)["Ref__abradable"].speeds == (900.0, 1234.5)
 
 
-def test_projection_by_hand(monkeypatch, tmp_path):
-    costs = {"cpu_s": [2.5, 5.0], "reduction_cpu_s": [0.2, 0.25], "recovery_cpu_s": [0.2, 0.5]}
-    names, rows = ["Ref__direct", "L50__direct"], pd.DataFrame(costs).assign(file_cpu_s=0.0, reading_cpu_s=0.0)
+def test_projection_by_hand(tmp_path):
+    names, rows = ["Ref__direct", "L50__direct"], pd.DataFrame({"cpu_s": [2.5, 5.0], "file_cpu_s": [0.5, 0.5]})
     responses = {name: xr.Dataset(attrs=row) for name, row in zip(names, rows.to_dict("records"), strict=True)}
-    monkeypatch.setattr(estimate_tables, "time_start_up", lambda: 0.1)
-    projected = estimate_tables.table(responses, dict(zip(names, (4, 6), strict=True)), workflow_per_job=0.05, cores=2)
+    runs = {"sweep": dict(zip(names, ((4, 4.0), (6, 6.0)), strict=True)), "members": {names[1]: (7.6, 3.8)}}
+    projected = estimate_tables.table(responses, runs, jobs=0.2, fixed=3.0)
     costs = projected.set_index("part")
-    assert costs.loc["total", "core_hours"] == pytest.approx((40.0 + 3.0 + 10 * 0.15) / 3600.0)
-    assert costs.loc["total", "wall_hours"] == pytest.approx(0.5 * costs.loc["total", "core_hours"])
-    assert costs.loc["time integration", "core_s_per_simulation"] == 4.0
+    assert costs["core_min"].mul(60.0).to_dict() == pytest.approx(
+        {"jobs": 2.0, "models, pictures": 3.0, "time integration": 40.0, "files": 5.0, "members": 20.9, "total": 70.9}
+    )
+    assert costs["simulations"].to_dict() == pytest.approx(
+        {"jobs": 10, "models, pictures": 0, "time integration": 10, "files": 10, "members": 8, "total": 18}
+    )
     projected.to_csv(tmp_path / "estimate.csv", index=False)
-    assert estimate_tables.closing(tmp_path) == "10 simulations at most, 0.01 h on 2 cores"
+    assert estimate_tables.closing(tmp_path) == "about 18 simulations, 1.18 core minutes"
 
 
 def test_there_is_a_case_for_every_value_and_it_varies_what_it_is_called(settings):
@@ -220,7 +214,7 @@ def test_there_is_a_case_for_every_value_and_it_varies_what_it_is_called(setting
     published = cases["central_difference_step/2.5e-08__abradable"].choice
     assert published == replace(lined.choice, time_step=2.5e-8, integrator="central_difference", shorten=False)
     assert cases["friction_form/constant__abradable"].scene.friction.vector is False
-    models = {"mesh_nodes/5000": 0, "boundary_nodes/4": 1, "fixed_interface_modes/3": 2, "stress_region/whole": 3}
+    models = {"mesh_nodes/5000": 0, "boundary_nodes/4": 1, "fixed_interface_modes/3": 2}
     for name, place in models.items():
         parts = zip(cases[f"{name}__direct"].model.name.split("_"), direct.model.name.split("_"), strict=True)
         assert [number for number, (part, other) in enumerate(parts) if part != other] == [place]
@@ -230,7 +224,6 @@ def test_extremes_of_clearance_and_lobes_are_those_of_lobes_in_clearances(config
     """Otherwise, nothing would touch at the largest clearance."""
     cases = stability.cases(read_settings(config_copy))
     assert cases["clearance/0.01__direct"].scene.casing.lobe_height == pytest.approx(2e-2)
-    assert cases["ovalisation_in_clearances/10__direct"].scene.casing.lobe_height == pytest.approx(3.56e-3)
     assert cases["damping_ratio/0.1__direct"].scene.casing.height == 7.12e-4
     overlay(config_copy, "config.yaml", "scenes: [growing_direct]")
     growing = stability.cases(read_settings(config_copy))["clearance/0.01__growing_direct"].scene.casing

@@ -6,11 +6,8 @@ from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibili
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 from r37core.rom.reduction_choice import LINEAR, POINTS, QUADRATIC
 
-from .settings import Settings, contact_of_blades, direct_on_points, fastest_of, length_of_run, most_runs, slowest_speeds
+from .settings import Settings, contact_of_blades, direct_on_points, fastest_of
 from .spread import Spreads
-
-LONG_RUN = 10.0
-"""CPU time (s) of one simulation from which on it is said before a run starts."""
 
 LARGE_FRICTION = 0.2
 """Coefficient up to which the two integrators agree within 2% on average, in direct contact on patches, at settled speeds."""
@@ -28,14 +25,6 @@ def remarks_of_pipeline(settings: Settings) -> list[str]:
     lines += remarks_on_input(settings)
     lines += remarks_on_unlike_contact(settings)
     lines += remarks_on_left_out_modes(elastic_casings(settings))
-    refining = {pair: plan for pair, plan in settings.speed_plans.items() if plan.refined}
-    if refining:
-        certain = sum(len(plan.certain) for plan in refining.values())
-        most = sum(most_runs(settings, *pair) for pair in refining)
-        lines.append(
-            f"adaptive speed sampling: {certain} simulations and those of the windows first, about {most} at most; "
-            "they are planned round by round, so a dry run shows none of those to come"
-        )
     return lines
 
 
@@ -52,19 +41,15 @@ def remarks_on_input(settings: Settings, changed: Collection[str] = ()) -> list[
 
 
 def remarks_on_speeds(settings: Settings) -> list[str]:
-    """Remarks on speeds at which a run takes long, and on those beyond what models are made for."""
-    lines = []
-    run = max((length_of_run(settings, *slowest) for slowest in slowest_speeds(settings).items()), key=lambda run: run.steps)
-    if run.cpu_time >= LONG_RUN:
-        lines.append(f"speeds: at {run.speed:g} rad/s {run.wording} takes about {run.cpu_time:.2g} s of CPU time")
+    """Remark on speeds beyond what models are made for."""
     fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
     highest = settings.structure.maximum_speed_rad_s
-    if fastest > highest:
-        lines.append(
-            f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
-            "Campbell diagrams are made for speeds up to that; raise it to what is run"
-        )
-    return lines
+    if fastest <= highest:
+        return []
+    return [
+        f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
+        "Campbell diagrams are made for speeds up to that; raise it to what is run"
+    ]
 
 
 def remarks_on_blades(settings: Settings) -> list[str]:

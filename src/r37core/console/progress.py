@@ -52,13 +52,12 @@ _MOST_CHANGES, _LONGEST_CHANGE = 3, 300
 class Progress(logging.Filter):
     """A filter for the handler of Snakemake's messages that keeps those about single jobs back and writes a line instead.
 
-    `most`: how many simulations there may be at most, those of earlier runs included; windows of adaptive speeds, which are
-    run in any case, may pass it. The line goes to `stream`: renewed in place if that is a terminal, and now and then as a line
-    of its own if it is not. Snakemake's log file has everything. While `beating`
-    the line also comes when Snakemake says nothing for long.
+    `expected`: about how many simulations there are, those of earlier runs included. The line goes to `stream`: renewed in
+    place if that is a terminal, and now and then as a line of its own if it is not. Snakemake's log file has everything. While
+    `beating` the line also comes when Snakemake says nothing for long.
     """
 
-    most: int
+    expected: int
     stream: TextIO = field(default_factory=lambda: sys.stderr)
     clock: Callable[[], float] = time.monotonic
     _jobs: dict[Any, tuple[str, str, str, float]] = field(default_factory=dict)
@@ -128,9 +127,8 @@ class Progress(logging.Filter):
             blades = [*self._simulated.items(), *([("members, designs, further runs", of_many.total())] if of_many else [])]
             shown = ", ".join(f"{blade} {number}" for blade, number in blades[-3:])
             more = f"{len(blades) - 3} blades more, " if len(blades) > 3 else ""
-            bound = f" of at most {self.most}" if total <= self.most else ""
             diverged = self._diverged + of_many[RunStatus.DIVERGED]
-            parts += [f"simulations {total}{bound} ({more}{shown})", f"{diverged} diverged"]
+            parts += [f"simulations {total} of about {self.expected} ({more}{shown})", f"{diverged} diverged"]
         if rate > 0.0:
             parts.append(f"{rate:.1f} a second")
         if rate > 0.0 and (self._simulated or self._done == self._known):

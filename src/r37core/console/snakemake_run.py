@@ -22,9 +22,9 @@ from r37core.base.io import READ_ONLY, InputFileError
 from r37core.base.origin import date_created
 from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_at_end
-from r37core.plans.extent import extent_of
+from r37core.plans.extent import number_of
 from r37core.product.closing import closing_lines
-from r37core.product.extensions import settings_of_run, simulations_of_members
+from r37core.product.extensions import settings_of_run, whole_extent
 from r37core.product.remarks import check_asked, lines_of_extensions, remarks, replaced_level, source_folder
 
 from . import failures, lock
@@ -123,7 +123,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
     if not (caller or os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
-        quieten(logger.handlers, Progress(extent_of(settings, simulations_of_members(settings)).at_most))
+        quieten(logger.handlers, Progress(number_of(whole_extent(settings))))
     return Console(workflow, refusal, logger.warning, settings, source, began, caller)
 
 

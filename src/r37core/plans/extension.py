@@ -10,7 +10,7 @@ from r37core.config import Settings
 from r37core.config.section import ExtensionSection
 from r37core.results.columns import Column
 
-from .extent import Pair
+from .extent import Pair, Runs
 from .paths import Wildcards
 from .sweep_plan import Sweep
 
@@ -94,7 +94,7 @@ class Extension:
     in place of one, each with a name of its own, which share its file of rules.
     `section`: that section; none without one.
     `checks`: what no model of the section alone can check; each raises ConfigError.
-    `members`: largest number of simulations of members and designs next to the sweep, by blade and scene.
+    `runs`: its simulations beside those of the sweep, by blade and scene.
     `targets`: what is made of it; part of all_blades unless `made_on_request`.
     `columns`: what it adds to summary.csv and ranking.csv.
     `offers`: files among the targets, by names under which other rules take them where a run makes them. The pipeline takes
@@ -112,7 +112,7 @@ class Extension:
     name: str
     section: ExtensionSection[Any] | None = None
     checks: tuple[Callable[[Settings], None], ...] = ()
-    members: Callable[[Settings], Mapping[Pair, int]] = lambda _: {}
+    runs: Callable[[Settings], Mapping[Pair, Runs]] = lambda _: {}
     targets: Targets = lambda _: {}
     columns: tuple[AddedColumns, ...] = ()
     offers: Mapping[str, str] = field(default_factory=dict)

@@ -1,56 +1,111 @@
-"""How large a run is: its simulations and what they cost. `r37 check`, the study `estimate` and the progress line say this."""
+"""How large a run is: its simulations and their CPU time. Each run begins with it; `r37 check` and `snakemake estimate` say it.
 
-from __future__ import annotations
+A simulation takes so long for each step, by what the contact acts on, and so long beside its steps.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from statistics import harmonic_mean
 
 from r37core.config import Settings
-from r37core.config.settings import most_runs
+from r37core.config.settings import length_of_run, most_runs
+from r37core.rom.reduction_choice import PATCHES, POINTS
 
 Pair = tuple[str, str]
 """Blade and scene."""
 
-_JOB_S = 0.07
-"""CPU time (s) of a simulation beside its time integration: its process, results and file, and Snakemake's share."""
+SWEEP = "sweep"
+"""The simulations that the pipeline makes itself; those of an extension have its name."""
+
+_OF_COARSE = 1.5
+"""Adaptive speeds that are run as a rule, in coarse ones, where windows ask for more than the largest share of the grid."""
+
+_STEP_S = {POINTS: 1.8e-7, PATCHES: 6e-7}
+"""CPU time (s) of a step, by what the contact acts on."""
+
+_REVOLUTION_S = 5e-5
+"""CPU time (s) of the stress and statistic of a revolution."""
+
+_SIMULATION_S, JOB_S = 0.02, 0.05
+"""CPU time (s) of a simulation beside its revolutions, and of its job where it has one of its own."""
+
+_MODEL_S, _NODE_S = 4.0, 1.7e-3
+"""CPU time (s) of a blade's model, and more of it for each node of its mesh."""
+
+_PAIR_S, _RUN_S = 4.0, 15.0
+"""CPU time (s) of the datasets and pictures of a blade and scene, and of what a run has once."""
+
+_SETTLED = 0.5
+"""Share of the longest run that is run as a rule where a run ends as soon as it has settled."""
 
 
 @dataclass(frozen=True)
-class Extent:
-    """Simulations of a sweep, `certain` ones and at `most` where speeds are adaptive, and at most so many of its `members`."""
+class Runs:
+    """Simulations of a blade and scene: their `number` as a rule, and the `fewest` where results ask for more.
 
-    certain: int
-    most: int
-    members: int
+    `length`: that of all together, in simulations of the sweep, where it is not their number. `models`: number of blade models
+    that are made for them.
+    """
 
-    def __add__(self, other: Extent) -> Extent:
-        return Extent(self.certain + other.certain, self.most + other.most, self.members + other.members)
-
-    @property
-    def at_most(self) -> int:
-        """Simulations of the sweep and of its members, at most."""
-        return self.most + self.members
+    number: float
+    fewest: float | None = None
+    length: float | None = None
+    models: int = 0
 
     @property
-    def wording(self) -> str:
-        """Numbers, for a sentence about simulations."""
-        sweep = str(self.certain) if self.most == self.certain else f"{self.certain} to about {self.most}"
-        return f"{sweep}, and at most {self.members} of members" if self.members else sweep
-
-    def cpu_time(self, per_run: float) -> str:
-        """Time that they take at most, in words; `per_run`: CPU seconds of the time integration of one."""
-        cost = self.at_most * (per_run + _JOB_S)
-        return f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
+    def whole_length(self) -> float:
+        """Length of all together, in simulations of the sweep."""
+        return self.number if self.length is None else self.length
 
 
-def extents(settings: Settings, members: Mapping[Pair, int]) -> dict[Pair, Extent]:
-    """The extent of each blade and scene; `members`: simulations of members there, at most."""
-    return {
-        pair: Extent(len(plan.certain), most_runs(settings, *pair), members.get(pair, 0))
-        for pair, plan in settings.speed_plans.items()
-    }
+Extent = Mapping[str, Mapping[Pair, Runs]]
+"""Simulations of each part of a run: SWEEP, and extensions that have some."""
 
 
-def extent_of(settings: Settings, members: Mapping[Pair, int]) -> Extent:
-    """The extent of a whole run."""
-    return sum(extents(settings, members).values(), Extent(0, 0, 0))
+def extent_of(settings: Settings, further: Extent) -> Extent:
+    """The extent of a run: that of its sweep, and `further` simulations of extensions."""
+    sweep = {}
+    for pair, plan in settings.speed_plans.items():
+        certain = len(plan.certain)
+        sweep[pair] = Runs(max(most_runs(settings, *pair), _OF_COARSE * certain), certain) if plan.refined else Runs(certain)
+    return {SWEEP: sweep, **{name: runs for name, runs in further.items() if runs}}
+
+
+def number_of(extent: Extent) -> int:
+    """Number of simulations, as a rule."""
+    return round(sum(runs.number for several in extent.values() for runs in several.values()))
+
+
+def sizes(settings: Settings, extent: Extent) -> list[str]:
+    """Number of simulations of each part, and the CPU time of all with models and pictures, as lines."""
+    parts = []
+    for name, several in extent.items():
+        number = sum(runs.number for runs in several.values())
+        fewest = sum(runs.number if runs.fewest is None else runs.fewest for runs in several.values())
+        parts.append(
+            f"{name} {number}" if fewest == number else f"{name} about {number:.0f}, as results ask ({fewest} at least)"
+        )
+    seconds = fixed_seconds(settings, extent)
+    for name, several in extent.items():
+        job = JOB_S if name == SWEEP else 0.0
+        seconds += sum(
+            runs.whole_length * simulation_seconds(settings, pair) + runs.number * job for pair, runs in several.items()
+        )
+    time = f"{seconds:.0f} s" if seconds < 120.0 else f"{seconds / 60.0:.3g} minutes"
+    return [f"simulations: {', '.join(parts)}", f"CPU time: about {time}; as measured on blades of yours: snakemake estimate"]
+
+
+def fixed_seconds(settings: Settings, extent: Extent) -> float:
+    """CPU time (s) beside the simulations: models, datasets, pictures, and what a run has once."""
+    made = sum(runs.models for several in extent.values() for runs in several.values())
+    models = (len(settings.blades) + made) * (_MODEL_S + settings.fidelity.mesh.nodes * _NODE_S)
+    return _RUN_S + _PAIR_S * len(settings.speed_plans) + models
+
+
+def simulation_seconds(settings: Settings, pair: Pair) -> float:
+    """CPU time (s) of a simulation of the sweep of a blade and scene, mean over its speeds."""
+    blade, scene = pair
+    speeds, choice = settings.speed_plans[pair].certain, settings.integration_choice(blade, scene, 0.0)
+    revolutions = choice.revolutions * (_SETTLED if choice.until_settled else 1.0)
+    run = length_of_run(settings, scene, harmonic_mean(speeds), revolutions)
+    return _SIMULATION_S + run.steps * _STEP_S[settings.contact_of(blade)] + revolutions * run.blades * _REVOLUTION_S

@@ -1,6 +1,5 @@
 """The extensions of the installed packages. The configuration is read with the sections and checks of all of them."""
 
-from collections import Counter
 from importlib import import_module
 from itertools import chain
 
@@ -10,7 +9,7 @@ from r37core.config.config_file import Config, config_model
 from r37core.config.cross_checks import CHECKS
 from r37core.config.reading import Reader
 from r37core.plans.extension import Extension
-from r37core.plans.extent import Pair
+from r37core.plans.extent import Extent, extent_of
 
 
 def _declared(module: str) -> tuple[Extension, ...]:
@@ -22,9 +21,9 @@ EXTENSIONS: tuple[Extension, ...] = tuple(chain.from_iterable(map(_declared, reg
 """All extensions: one of each folder, or several that share its rules."""
 
 
-def simulations_of_members(settings: Settings) -> dict[Pair, int]:
-    """Largest number of simulations of members and designs, by blade and scene."""
-    return sum((Counter(extension.members(settings)) for extension in EXTENSIONS), Counter())
+def whole_extent(settings: Settings) -> Extent:
+    """Simulations of a whole run, those of all extensions included."""
+    return extent_of(settings, {extension.name: extension.runs(settings) for extension in EXTENSIONS})
 
 
 CONFIG: type[Config] = config_model([extension.section for extension in EXTENSIONS if extension.section])

@@ -11,16 +11,18 @@ from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_of_pipeline
 from r37core.config.settings import merged_settings
 from r37core.plans.extension import Extension
+from r37core.plans.extent import sizes
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.closing import counted
 
-from .extensions import EXTENSIONS
+from .extensions import EXTENSIONS, whole_extent
 
 
 def remarks(settings: Settings) -> list[str]:
-    """Remarks of the pipeline and of all extensions."""
-    return [*remarks_of_pipeline(settings), *(line for extension in EXTENSIONS for line in extension.remarks(settings))]
+    """How large a run is, and remarks of the pipeline and of all extensions."""
+    lines = [line for extension in EXTENSIONS for line in extension.remarks(settings)]
+    return [*sizes(settings, whole_extent(settings)), *remarks_of_pipeline(settings), *lines]
 
 
 def check_asked(settings: Settings, targets: Collection[str]) -> None:

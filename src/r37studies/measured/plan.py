@@ -5,7 +5,7 @@ from r37core.config import ConfigError, Settings
 from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure, Panel
-from r37core.plans.extent import Pair
+from r37core.plans.extent import Pair, Runs
 from r37core.plans.sweep_plan import Sweep
 from r37studies.surrogate.gaussian_processes import SearchPackageMissing, library
 
@@ -48,13 +48,13 @@ def can_be_calibrated(settings: Settings) -> None:
         library()
 
 
-def simulations(settings: Settings) -> dict[Pair, int]:
-    """Largest number of simulations of designs, by blade and scene."""
-    if settings.section(CALIBRATE) is None:
-        return {}
-    measured, runs = settings.made(Measured), settings.made(Calibrated).section.runs
+def simulations(settings: Settings) -> dict[Pair, Runs]:
+    """Simulations at each measured speed, by blade and scene: with two frictions, and of the designs of a calibration."""
+    measured, number = settings.made(Measured), 2
+    if settings.section(CALIBRATE) is not None:
+        number += settings.made(Calibrated).section.runs
     several = {pair: measured.pair_measurements(pair).values() for pair in measured.pairs}
-    return {pair: runs * len({speed for each in own for speed in each.run_speeds}) for pair, own in several.items()}
+    return {pair: Runs(number * len({speed for each in own for speed in each.run_speeds})) for pair, own in several.items()}
 
 
 def _once(sweep: Sweep) -> paths.Wildcards:
@@ -69,6 +69,7 @@ MEASUREMENTS = Extension(
     name="measured",
     section=MEASURED,
     checks=(can_be_compared,),
+    runs=simulations,
     targets=lambda sweep: {OBSERVED: _pairs(sweep), TABLE: [{}] if _pairs(sweep) else []},
     offers={"measured": TABLE},
     figures=(
@@ -91,7 +92,6 @@ CALIBRATION = Extension(
     name="calibrate",
     section=CALIBRATE,
     checks=(can_be_calibrated,),
-    members=simulations,
     targets=lambda sweep: dict.fromkeys((DATASET, NUMBERS, FOLDER), _once(sweep)),
     figures=(
         Figure(

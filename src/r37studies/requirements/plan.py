@@ -16,6 +16,7 @@ from r37core.config.settings import contact_nodes, length_of_run
 from r37core.contact.casing import least_change
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Panel
+from r37core.plans.extent import Pair, Runs
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.datasets import FURTHER_RUNS
@@ -110,7 +111,7 @@ class Judged:
         mesh, modes = settings.fidelity.mesh, settings.fidelity.reduction.fixed_interface_modes
         nodes = mesh.nodes // 2
         contact = min(contact_nodes(settings, blade, count) for count in (mesh.tip_elements, tip_elements(nodes)))
-        model = ModelChoice(nodes, contact, modes, "submesh")
+        model = ModelChoice(nodes, contact, modes)
         return {f"coarser_{kind}": MODEL_FILES[kind].format(blade=blade, model=model.name) for kind in ("contact", "rom")}
 
     def looks(self) -> Stage:
@@ -202,8 +203,19 @@ def can_be_judged(settings: Settings) -> None:
             raise document.refusal((*place, "at_least_percent"), reach, allowed)
 
 
+_LOOKED = 0.7
+"""Share of the most further runs that are run as a rule."""
+
+
+def further_runs(settings: Settings) -> dict[Pair, Runs]:
+    """Further runs that a verdict may need, by blade and scene: none where a requirement fails clearly or nothing touches."""
+    operating = operating_range(settings)
+    most = most_further_runs(operating) if operating else 0
+    return {pair: Runs(_LOOKED * most, 0) for pair in Judged(Sweep(settings)).looked}
+
+
 def remarks(settings: Settings) -> list[str]:
-    """Which blades and scenes are not run over the whole operating range, and how many further runs a verdict may need."""
+    """Which blades and scenes are not run over the whole operating range, and what no run can tell."""
     operating, lines = operating_range(settings), []
     if operating is None:
         return []
@@ -212,9 +224,6 @@ def remarks(settings: Settings) -> list[str]:
         reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
         lines.append(f"operating: the speeds of {named} do not reach over {reach}; what is judged there is not known")
     lines += _not_told(settings)
-    if looked := Judged(Sweep(settings)).looked:
-        runs = f"up to about {most_further_runs(operating)} further runs of each blade and scene ({len(looked)})"
-        lines.append(f"requirements: {runs} that does not fail clearly")
     return lines
 
 
@@ -247,6 +256,7 @@ EXTENSION = Extension(
     name="requirements",
     section=SECTION,
     checks=(can_be_judged,),
+    runs=further_runs,
     targets=targets,
     offers={"verdict": VERDICT, FURTHER_RUNS: ALL_LOOKS},
     remarks=remarks,

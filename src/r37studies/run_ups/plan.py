@@ -14,6 +14,7 @@ from r37core.config.remarks import elastic_casings, remark_on_overtaken_waves
 from r37core.config.settings import fastest_of, length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
+from r37core.plans.extent import Pair, Runs
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -91,6 +92,18 @@ def _pairs(sweep: Sweep) -> paths.Wildcards:
     return paths.run_keys(pair for pair, named in RunUps(sweep).choices.items() if named)
 
 
+def further_runs(settings: Settings) -> dict[Pair, Runs]:
+    """Run-ups of each blade and scene; about a crossing they are at most so long, as it lies below the highest speed."""
+    samples, highest = settings.fidelity.time_integration.samples_per_revolution, settings.structure.maximum_speed_rad_s
+    runs = {}
+    for pair, named in RunUps(Sweep(settings)).choices.items():
+        ups = [choice.run_up(samples, highest if choice.crossing else None) for choice in named.values()]
+        revolutions = sum((1 + up.worn) * (up.before + up.revolutions + up.after) for up in ups)
+        if ups:
+            runs[pair] = Runs(len(ups), length=revolutions / settings.scenes[pair[1]].revolutions)
+    return runs
+
+
 def remarks(settings: Settings) -> list[str]:
     """Remarks on elastic casings that only a run-up overtakes, as far as no crossing decides its speeds."""
     lines = []
@@ -141,6 +154,7 @@ EXTENSION = Extension(
     name="run_ups",
     section=SECTION,
     checks=(run_ups_can_be_done,),
+    runs=further_runs,
     targets=lambda sweep: {
         RUN_UP: RunUps(sweep).files,
         **dict.fromkeys((DATASET, TABLE, RATES), [{}] if _pairs(sweep) else []),

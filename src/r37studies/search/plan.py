@@ -9,7 +9,7 @@ from r37core.config import Settings, operating_range, plain
 from r37core.config.settings import most_runs
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.extent import Pair
+from r37core.plans.extent import Pair, Runs
 from r37core.plans.sweep_plan import Sweep
 from r37core.sweep.driver import one_by_one
 from r37studies.carried import Carried
@@ -61,33 +61,30 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     return dict.fromkeys((DATASET, TABLE), _once(sweep))
 
 
-def simulations(settings: Settings) -> dict[Pair, int]:
-    """Largest number of simulations of the designs and the start, by blade and scene."""
+def simulations(settings: Settings) -> dict[Pair, Runs]:
+    """Simulations of the designs and the start, by blade and scene."""
     if not is_asked(settings):
         return {}
     designs = designs_of(settings)
     entry = designs.entry
     runs = (1 + entry.designs) * (1 + (entry.tolerances.members if entry.tolerances else 0))
-    return {(entry.blade, scene): runs * most_runs(settings, entry.blade, scene) for scene in designs.scenes}
-
-
-def remarks(settings: Settings) -> list[str]:
-    """How many simulations a search asks for."""
-    if not is_asked(settings):
-        return []
-    entry = designs_of(settings).entry
-    runs = sum(simulations(settings).values()) // (1 + entry.designs)
-    words = f"{entry.designs} designs of '{entry.blade}' in rounds of {entry.batch}"
-    return [f"search: {words}, at most {runs} simulations of each, beside those of the sweep (docs/better_blade.md)"]
+    pairs = [(entry.blade, scene) for scene in designs.scenes]
+    return {
+        pair: Runs(
+            runs * most_runs(settings, *pair),
+            runs * len(settings.speed_plans[pair].certain),
+            models=entry.designs if pair == pairs[0] else 0,
+        )
+        for pair in pairs
+    }
 
 
 EXTENSION = Extension(
     name=FOLDER,
     section=SECTION,
     checks=(search_can_be_run,),
-    members=simulations,
+    runs=simulations,
     targets=targets,
-    remarks=remarks,
     figures=(
         Figure(
             rule="search_designs_figure",

@@ -11,6 +11,7 @@ from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.settings import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import AddedColumns, Extension, Figure
+from r37core.plans.extent import Pair, Runs
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.speed_run import OF_RUNS
 
@@ -109,6 +110,23 @@ def _refusals(settings: Settings, section: SecondMotionSection) -> Iterator[tupl
             yield ("dwell", "speeds_rad_s", number), f"{speed:g} rad/s", between
 
 
+_RANGES = 2
+"""Ranges of hysteresis of a blade and scene, as a rule."""
+
+
+def further_runs(settings: Settings) -> dict[Pair, Runs]:
+    """Sweeps and dwells of each blade and scene; how many ranges are dwelt on, the sweeps show."""
+    section, runs = settings.section(SECTION), {}
+    for blade, scene in pairs_of(settings):
+        sweep, dwell, usual = section.sweep(), section.dwell, settings.scenes[scene].revolutions
+        known = set(map(rounded, settings.speed_plans[blade, scene].certain)) & set(sweep.speeds)
+        number = len(MOTIONS) * len(sweep.speeds) - len(known)
+        dwells = (2 + dwell.starts) * (len(dwell.speeds_rad_s) + _RANGES * dwell.range_speeds)
+        length = number * (sweep.revolutions or usual) + dwells * dwell.revolutions
+        runs[blade, scene] = Runs(number, length=length / usual)
+    return runs
+
+
 def remarks(settings: Settings) -> list[str]:
     """How long carried motions are, where those from rest have another length."""
     section = settings.section(SECTION)
@@ -121,6 +139,7 @@ EXTENSION = Extension(
     name="second_motions",
     section=SECTION,
     checks=(can_be_swept,),
+    runs=further_runs,
     targets=targets,
     columns=(
         AddedColumns("summary", DATASET, "r37studies.second_motions.added.summary_with_motions", SECOND_MOTION),

@@ -18,7 +18,7 @@ from r37core.config.section import AllOrNames, ExtensionSection, FileName, LeftO
 from r37core.config.spread import MemberCount, SpreadEntry, Spreads
 from r37core.contact.scene import Scene
 from r37core.plans import paths
-from r37core.plans.extent import Pair
+from r37core.plans.extent import Pair, Runs
 from r37core.plans.provenance import Attributes
 from r37core.plans.sweep_plan import Sweep
 from r37core.sweep.blade_sweep import CAMPBELL, blade_sweep, shared_speeds
@@ -199,10 +199,14 @@ class Tolerances:
         return to_plain(shared_speeds(self.settings, wildcards.blade, wildcards.scene, self._entry.largest_share))
 
     @property
-    def simulations(self) -> dict[Pair, int]:
-        """Largest number of simulations of members, by blade and scene."""
-        entry, plans = self._entry, self.settings.speed_plans
-        return {pair: entry.members * plans[pair].speed_count(entry.largest_share) for pair in self.pairs}
+    def runs(self) -> dict[Pair, Runs]:
+        """Simulations of members, by blade and scene."""
+        entry, plans = self._entry, {pair: self.settings.speed_plans[pair] for pair in self.pairs}
+        models = entry.members if entry.of_blades else 0
+        return {
+            pair: Runs(entry.members * plan.speed_count(entry.largest_share), entry.members * len(plan.certain), models=models)
+            for pair, plan in plans.items()
+        }
 
     @property
     def samples(self) -> list[tuple[str, str, dict[str, list[float | None]]]]:

@@ -3,7 +3,6 @@
 from r37core.config import Settings
 from r37core.plans import paths
 from r37core.plans.extension import AddedColumns, Extension, Figure
-from r37core.plans.extent import extent_of
 from r37core.plans.sweep_plan import Sweep
 
 from .members import SECTION, Tolerances, members_can_be_drawn
@@ -28,8 +27,7 @@ def remarks(settings: Settings) -> list[str]:
     tolerances, members = settings.made(Tolerances), settings.section(SECTION).members
     if not tolerances.pairs:
         return []
-    most = extent_of(settings, tolerances.simulations).members
-    lines = [f"tolerances: {members} members, {most} simulations of theirs at most, beside those of the sweep"]
+    lines = []
     for place, number in enumerate(tolerances.numbers):
         values = {member.values[place] for of in tolerances.all.values() for member in of.values()} - {None}
         if len(values) == 1:
@@ -47,7 +45,7 @@ EXTENSION = Extension(
     name="tolerances",
     section=SECTION,
     checks=(members_can_be_drawn,),
-    members=lambda settings: settings.made(Tolerances).simulations,
+    runs=lambda settings: settings.made(Tolerances).runs,
     targets=targets,
     columns=(AddedColumns("summary", TABLE, "r37studies.tolerances.ranges.ranged_summary", MEMBERS_SHOWING),),
     offers={"members": DATASET},

@@ -29,8 +29,8 @@ Keys: SPEEDS, LEVEL; those of a scene in scenes.yaml, as `scene.lining.bars`; fi
 SPEEDS, LEVEL = "base.speeds", "base.level"
 """Keys: speeds as shares of the crossing's, or the one that three lie about; fidelity level."""
 
-CLEARANCE, LOBES = "casing.clearance_m", "casing.amplitude_clearances"
-"""Keys of a scene: the clearance, which is the cold one in a scene that has that, and the height of its lobes."""
+CLEARANCE = "casing.clearance_m"
+"""Key of a scene: the clearance, which is the cold one in a scene that has that."""
 
 
 def some_of(varied: Collection[str]) -> Any:
@@ -96,8 +96,7 @@ class BaseCase:
         )
         settings, chosen, speeds = self.settings, self.settings.blades[blade], changes[SPEEDS]
         level = settings.levels[changes.get(LEVEL, self._section.base or settings.fidelity_name)]
-        # matrices have contact nodes, and no stress
-        if chosen.is_matrices and (model or "snapshots_per_revolution" in choice):
+        if chosen.is_matrices and model:
             return f"{blade} is given by matrices"
         if "nodes" in model and not chosen.has_profiles:
             return f"{blade} is given by a mesh"
@@ -108,8 +107,6 @@ class BaseCase:
         integration = replace(level.time_integration.choice(made), **choice)
         if "stress" not in results:
             integration = replace(integration, snapshots_per_revolution=0)
-        elif integration.samples_per_revolution % integration.snapshots_per_revolution:
-            return "stress is at samples of the motion alone"
         return Case(
             blade=blade,
             model=self._model(blade, level, model),
@@ -129,7 +126,7 @@ class BaseCase:
             return self.settings.structure.boundary.tip_line
         nodes = level.mesh.nodes if self.settings.blades[blade].has_profiles else OWN_MESH
         boundary_nodes = contact_nodes(self.settings, blade, level.mesh.tip_elements)
-        return replace(ModelChoice(nodes, boundary_nodes, level.reduction.fixed_interface_modes, "submesh"), **changes)
+        return replace(ModelChoice(nodes, boundary_nodes, level.reduction.fixed_interface_modes), **changes)
 
     def check_names(self) -> None:
         """ConfigError unless blade, scenes and base are in their files, and the order in the Campbell diagram."""
@@ -155,7 +152,7 @@ def _changed(entry: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
     """
     casing = dict(entry["casing"])
     cold = "casing.clearance.cold_m" if "clearance" in casing else CLEARANCE
-    if "amplitude_m" in casing and {CLEARANCE, LOBES} & set(changes):
+    if "amplitude_m" in casing and CLEARANCE in changes:
         clearance = casing["clearance"]["cold_m"] if "clearance" in casing else casing["clearance_m"]
         casing["amplitude_clearances"] = casing.pop("amplitude_m") / clearance
         entry = {**entry, "casing": casing}

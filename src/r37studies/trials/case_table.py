@@ -30,8 +30,8 @@ _NUMBERS = ["time_step_s", "share_in_contact", "rms_m"]
 QUANTITIES = ["rms_normal", "rms_tangential", "peak_normal", "max_von_mises_last_revolution", "max_wear"]
 """Variables of a response whose means over the speeds are compared, where it has them; a motion is that of the leading edge."""
 
-COSTS = ["cpu_s", "bytes_written", "model_cpu_s"]
-"""Mean CPU time of a run and size of its file, and CPU time of making the model."""
+COSTS = ["cpu_s", "model_cpu_s"]
+"""Mean CPU time of a run, and CPU time of making the model."""
 
 
 def refusal(reason: str) -> xr.Dataset:

@@ -1,6 +1,5 @@
 """The preset estimate: some of the speeds of each blade and scene of the sweep, evenly spread."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from pydantic import Field
@@ -8,7 +7,7 @@ from pydantic import Field
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection, Section
 from r37core.plans.extension import Extension
-from r37core.plans.extent import Pair, extents
+from r37core.plans.extent import JOB_S, Extent, fixed_seconds
 from r37core.time_integration.speed_run import OF_RUNS
 
 from .case import Case
@@ -18,11 +17,7 @@ class EstimateSection(Section):
     """Cost of a whole sweep (snakemake estimate)."""
 
     every: int = Field(
-        default=50, ge=1, le=1_000_000, description="One of this many speeds is run, in all scenes, for every blade"
-    )
-    cores: int = Field(default=2, ge=1, le=1_000_000, description="Cores of the projected wall time")
-    workflow_s_per_job: float = Field(
-        default=0.045, ge=0, le=1000, description="CPU seconds of Snakemake itself per job, measured in a sweep of 17,514"
+        default=50, ge=1, le=1_000_000, description="One of this many speeds is run, at least five, of every blade and scene"
     )
 
 
@@ -31,18 +26,22 @@ SECTION = ExtensionSection("estimate", EstimateSection, EstimateSection())
 TABLE = "r37studies.trials.estimate_tables.table"
 
 
+_FEWEST = 5
+"""Speeds of the fewest that are run of each blade and scene, as far as it has so many."""
+
+
 def cases(settings: Settings) -> dict[str, Case | str]:
     """A case for each blade and scene."""
-    every, planned = settings.section(SECTION).every, dict[str, Case | str]()
+    planned = dict[str, Case | str]()
     for (blade, scene), plan in settings.speed_plans.items():
-        chosen = settings.scenes[scene]
+        chosen, every = settings.scenes[scene], min(settings.section(SECTION).every, len(plan.certain) // _FEWEST or 1)
         planned[f"{blade}__{scene}"] = Case(
             blade,
             chosen.tip_line,
             chosen.scene,
             settings.integration_choice(blade, scene, 0.0),
             # each speed from the middle of the part that it stands for
-            plan.certain[min(every // 2, len(plan.certain) - 1) :: every],
+            plan.certain[every // 2 :: every],
             results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
             material=settings.blades[blade].material,
             kept=settings.fidelity.time_integration.kept,
@@ -50,14 +49,13 @@ def cases(settings: Settings) -> dict[str, Case | str]:
     return planned
 
 
-def values(settings: Settings, members: Mapping[Pair, int]) -> dict[str, Any]:
-    """How many runs each blade and scene has at most, with so many simulations of its `members`; and where they are run."""
-    section = settings.section(SECTION)
-    return {
-        "runs": {"__".join(pair): extent.at_most for pair, extent in extents(settings, members).items()},
-        "workflow_per_job": section.workflow_s_per_job,
-        "cores": section.cores,
+def values(settings: Settings, extent: Extent) -> dict[str, Any]:
+    """Simulations of each part and case, as a rule, and how many of the case's they are worth; other CPU time (s)."""
+    runs = {
+        part: {"__".join(pair): (runs.number, runs.whole_length) for pair, runs in several.items()}
+        for part, several in extent.items()
     }
+    return {"runs": runs, "jobs": JOB_S, "fixed": fixed_seconds(settings, extent)}
 
 
 EXTENSION = Extension(

@@ -1,70 +1,44 @@
-"""The table of the estimate: the cost of a whole sweep, projected from a sample of its runs."""
+"""The table of the estimate: the cost of a whole run, projected from a sample of its sweep."""
 
-import os
-import statistics
-import subprocess
-import sys
 from collections.abc import Mapping
-from itertools import pairwise
 from pathlib import Path
 
 import pandas as pd
 import xarray as xr
 
+from r37core.plans.extent import SWEEP
 from r37core.results.closing import counted
 from r37core.results.table_file import read_table
 
-_IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
-"""Imports of the script of a simulation."""
+_PARTS = {"time integration": ["cpu_s"], "files": ["file_cpu_s"]}
+"""Part of the sweep -> costs of one of its simulations: with stress and statistic, and with its part of the response."""
 
 
-def time_start_up() -> float:
-    """CPU seconds of an interpreter that does the imports of a job and ends: the median of three."""
-    spent = [_cpu_of_children()]
-    for _ in range(3):
-        subprocess.run([sys.executable, "-c", _IMPORTS], check=True)
-        spent.append(_cpu_of_children())
-    return statistics.median(after - before for before, after in pairwise(spent))
+def table(
+    responses: Mapping[str, xr.Dataset], runs: Mapping[str, Mapping[str, tuple[float, float]]], jobs: float, fixed: float
+) -> pd.DataFrame:
+    """A row for each part and one of all: number of simulations, and core minutes.
 
-
-def _cpu_of_children() -> float:
-    times = os.times()
-    return times.children_user + times.children_system
-
-
-def table(responses: Mapping[str, xr.Dataset], runs: Mapping[str, int], workflow_per_job: float, cores: int) -> pd.DataFrame:
-    """A row for each part and one of all: core hours, core seconds of a simulation, simulations, and hours on `cores`.
-
-    `responses`: of cases, with their costs as attributes; `runs`: number of simulations that each stands for. Raises ValueError
-    for a refused case.
+    `responses`: of cases, with their costs as attributes; `runs`: of each part and case the number of simulations, and of how
+    many of the case's own they have the length together; `jobs`, `fixed`: core seconds of a simulation's job, and of what has
+    none. Raises ValueError for a refused case.
     """
     costs = pd.DataFrame([response.attrs for response in responses.values()], list(responses))
     for reason in costs["refused"].dropna() if "refused" in costs else ():
         raise ValueError(f"estimate: {reason}")
-    number = pd.Series(runs)[costs.index]
-    seconds = {
-        # with everything that a job does after its imports
-        "time integration": (number * costs[["cpu_s", "file_cpu_s", "reading_cpu_s"]].sum(axis=1)).sum(),
-        "start-up": time_start_up() * number.sum(),
-        "workflow": workflow_per_job * number.sum(),
-        "reduction": (costs["recovery_cpu_s"] + number * costs["reduction_cpu_s"]).sum(),
-    }
-    seconds["total"] = sum(seconds.values())
+    numbers = {part: sum(number for number, _ in several.values()) for part, several in runs.items()}
+    rows = [("jobs", numbers[SWEEP], jobs * numbers[SWEEP]), ("models, pictures", 0.0, fixed)]
+    for part, several in runs.items():
+        for name, kinds in _PARTS.items() if part == SWEEP else [(part, ["cpu_s", "file_cpu_s"])]:
+            each = costs[kinds].sum(axis=1)
+            rows.append((name, numbers[part], sum(each[case] * length for case, (_, length) in several.items())))
+    rows.append(("total", sum(numbers.values()), sum(seconds for *_, seconds in rows)))
     return pd.DataFrame(
-        {
-            "part": part,
-            "core_hours": spent / 3600.0,
-            "core_s_per_simulation": spent / number.sum(),
-            "simulations": number.sum(),
-            "cores": cores,
-            "wall_hours": spent / 3600.0 / cores,
-        }
-        for part, spent in seconds.items()
+        {"part": part, "simulations": round(number), "core_min": seconds / 60.0} for part, number, seconds in rows
     )
 
 
 def closing(results: Path) -> str:
-    """How many simulations there are, and how long they take."""
+    """How many simulations there are, and how long all takes."""
     total = read_table(results / "estimate.csv").set_index("part").loc["total"]
-    length = f"{total['wall_hours']:.2f} h on {counted(int(total['cores']), 'core')}"
-    return f"{counted(int(total['simulations']), 'simulation')} at most, {length}"
+    return f"about {counted(int(total['simulations']), 'simulation')}, {total['core_min']:.3g} core minutes"

@@ -6,7 +6,6 @@ from typing import Any
 from r37core.base.plain import to_plain
 from r37core.config import Settings, plain
 from r37core.plans import paths
-from r37core.rom.region_choice import EVERYWHERE
 from r37studies.other_models import MODEL_FILES, OWN_MESH, ModelChoice, tip_elements
 
 from . import estimate, stability, tradeoff
@@ -16,8 +15,8 @@ PRESETS = {each.EXTENSION.name: each for each in (estimate, tradeoff, stability)
 """Command -> its module, in the order of their sections in docs/configuration.md.
 
 It has `cases`, a function of the settings that gives each case by its name, or the reason why this run cannot have it; and
-`TABLE`, a function that makes the table of the responses and of `values`, a function of the settings and of the largest number
-of simulations of members by blade and scene.
+`TABLE`, a function that makes the table of the responses and of `values`, a function of the settings and of the simulations
+of a whole run.
 """
 
 EXTENSIONS = tuple(preset.EXTENSION for preset in PRESETS.values())
@@ -82,7 +81,7 @@ class Trials:
             },
             "boundary": replace(boundary, nodes=choice.boundary_nodes or None),
             "reduction": replace(settings.reduction_choice(blade), fixed_interface_modes=choice.fixed_interface_modes),
-            "stress_regions": {"whole": EVERYWHERE} if choice.stress_region == "whole" else settings.stress_regions(blade),
+            "stress_regions": settings.stress_regions(blade),
             "tip_line": boundary.tip_line,
         }
         return to_plain(parts)

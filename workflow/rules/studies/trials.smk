@@ -1,5 +1,5 @@
 # Single runs next to the sweep, and their tables. Not part of all_blades: snakemake tradeoff, stability or estimate
-from r37core.product.extensions import simulations_of_members
+from r37core.product.extensions import whole_extent
 from r37studies.other_models import MODEL_FILES, MODEL_NAME
 from r37studies.trials.plan import PRESETS, RESPONSE, TABLE, Trials
 
@@ -50,4 +50,4 @@ use rule step as trials_table with:
         **step("r37studies.trials.steps.report", *(preset.TABLE.rpartition(".")[0] for preset in PRESETS.values())),
         reasons=trials.reasons,
         table=lambda wildcards: PRESETS[wildcards.preset].TABLE,
-        values=lambda wildcards: PRESETS[wildcards.preset].values(settings, simulations_of_members(settings)),
+        values=lambda wildcards: PRESETS[wildcards.preset].values(settings, whole_extent(settings)),
