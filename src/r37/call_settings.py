@@ -109,7 +109,7 @@ def call_of(
         if whole:
             names_of_their_own(choices)
         elif families := [choice for choice in choices if choice.is_family]:
-            kind, design = families[0].kind, next(iter(families[0].designs.families[families[0].name].designs))
+            kind, design = families[0].kind, next(iter(families[0].designs.families[families[0].name]))
             raise ConfigError(f"{kind}: found the family {families[0].name}; allowed: a {kind}, such as {design}")
     level = {} if fidelity is None else {"fidelity": fidelity}
     asked = None if results is None else [*results]

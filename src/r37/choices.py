@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -15,7 +15,7 @@ from r37core.config import BladeSettings, ConfigError, Document, command_line_do
 from r37core.config.blades import blade_settings
 from r37core.config.families import Designs
 from r37core.config.messages import did_you_mean, single_line
-from r37core.config.reading import blades_of_file, scenes_of_file
+from r37core.config.reading import designs_of_file
 from r37core.config.scenes import SceneEntry
 from r37core.config.section import Without
 from r37core.config.shape_keys import SECTION_KEYS, SHARES
@@ -39,7 +39,7 @@ class Choice:
     @cached_property
     def designs(self) -> Designs[Any]:
         """All entries of the file with the changes on top, designs of families included. Raises ConfigError."""
-        return _FILES[self.kind](self.configuration.root, self.file, self.above)
+        return designs_of_file(self.kind, self.configuration.root, self.file, self.above)
 
     @property
     def is_family(self) -> bool:
@@ -117,8 +117,8 @@ class BladeChoice(Choice):
     def check(self) -> None:
         """Raises ConfigError for what the entry cannot be."""
         super().check()
-        if not self.is_family:
-            _ = self.settings
+        for name in self.designs.named([self.name]):
+            blade_settings(name, self.designs.entries, self.configuration.root, self.designs.document)
 
     def _copied(self, entry: Any, original: str) -> Any:
         if not isinstance(entry, Mapping) or "stacking_table" not in entry:
@@ -159,15 +159,12 @@ class SceneChoice(Choice):
         if not self.changes or self.is_family:
             return False
         with contextlib.suppress(ConfigError):
-            original = scenes_of_file(self.configuration.root, self.file).entries.get(self.base or self.name)
+            original = designs_of_file(self.kind, self.configuration.root, self.file).entries.get(self.base or self.name)
             return original is not None and original.casing.cold_clearance != self.entry.casing.cold_clearance
         return False
 
 
 C = TypeVar("C", bound=Choice)
-
-_FILES: Mapping[str, Callable[[Path, str, Document | None], Designs[Any]]] = {"blade": blades_of_file, "scene": scenes_of_file}
-"""Readers of the files of both kinds."""
 
 
 @stages()
@@ -189,7 +186,7 @@ def blades(*, file: Path | str | None = None, config: Path | str | None = None) 
         ['Ref', 'L50', 'L100', 'S50', 'S100', 'CS50', 'CS100']
     """
     chosen = read_configuration(config).changed_file("blades_file", file)
-    return list(blades_of_file(chosen.root, chosen.checked.blades_file).entries)
+    return list(designs_of_file(BladeChoice.kind, chosen.root, chosen.checked.blades_file).entries)
 
 
 @stages()
@@ -292,7 +289,7 @@ def scenes_named(configuration: Configuration) -> list[str]:
 
 def _scenes_in(configuration: Configuration) -> list[str]:
     """Names of the scenes and families of scenes in the file of a configuration. Raises ConfigError."""
-    return list(scenes_of_file(configuration.root, configuration.checked.scenes_file).document.content)
+    return list(designs_of_file(SceneChoice.kind, configuration.root, configuration.checked.scenes_file).document.content)
 
 
 def _chosen(kind: type[C], entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> C:

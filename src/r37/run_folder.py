@@ -12,7 +12,7 @@ from r37core.base.io import write_text
 from r37core.base.yaml_file import yaml_text
 from r37core.config import ConfigError
 from r37core.config.named_files import TABLES, file_keys
-from r37core.config.reading import blades_document
+from r37core.config.reading import entry_document
 from r37core.config.section import Without
 
 from .call_settings import Call, above
@@ -43,13 +43,13 @@ def run_folder(folder: Any) -> Path:
 def write_run(call: Call, folder: Path) -> None:
     """Write all that a call asks for as the files of a study; files that have not changed stay as they are."""
     settings, root = call.settings, call.settings.root
-    documents, config = settings.documents, dict(settings.documents.config.content)
-    blades = blades_document(root, settings.config.blades_file, above(call.blades))
+    config = dict(settings.document.content)
+    blades, _ = entry_document("blade", root, settings.config.blades_file, above(call.blades))
     tables: dict[str, Path] = {}
     files = {
         "blades": {name: _local_entry(entry, root, tables) for name, entry in blades.content.items()},
-        "scenes": {name: _run_histories(name, entry, call) for name, entry in documents.scenes.content.items()},
-        "fidelity": documents.levels.content,
+        "scenes": {name: _run_histories(name, entry, call) for name, entry in settings.scene_designs.document.content.items()},
+        "fidelity": settings.levels_document.content,
     }
     # first, so that a call that was killed here knows its folder again
     _write(config | {f"{kind}_file": f"config/{kind}.yaml" for kind in files}, folder / _CONFIG)

@@ -2,7 +2,7 @@
 
 from itertools import product
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Discriminator, Field, Tag
 
@@ -18,7 +18,7 @@ from r37core.config.blade_sections import (
     refuse_taken_names,
 )
 from r37core.config.declaring import declared_by, si_form
-from r37core.config.section import ByName, FileName, LeftOut, Name, Section, left_out, or_section, refused
+from r37core.config.section import ByName, FileName, LeftOut, Name, Section, either, left_out, option, refused
 from r37core.fem.orientation import Orientation
 from r37imports.importing.files import digest_of, matrix_files, mesh_files
 from r37imports.importing.source import MatricesSource, MeshSource, Where
@@ -41,14 +41,14 @@ class SurfaceRule(Section):
 
     def _check(self) -> None:
         if not (self._limits() or self.cone_zr_m or self.planes_m or self.sets):
-            raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m, planes_m or sets")
+            raise refused("a rule without limits", "a limit such as r_at_least_m, or cone_zr_m, planes_m or sets")
         if [0.0, 0.0, 0.0] in self.planes_m:
-            raise refused(("planes_m",), "a plane through the origin", "planes that do not contain it")
+            raise refused("a plane through the origin", "planes that do not contain it", "planes_m")
         first, last = self.cone_zr_m or ([0.0, 0.0], [1.0, 0.0])
         if first == last:
-            raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
+            raise refused("one point twice", "two points [z, r]", "cone_zr_m")
         if min(first[1], last[1]) < 0.0:
-            raise refused(("cone_zr_m",), f"{self.cone_zr_m}", "two points [z, r], with radii of 0 or more")
+            raise refused(f"{self.cone_zr_m}", "two points [z, r], with radii of 0 or more", "cone_zr_m")
 
     def _limits(self) -> tuple[tuple[str, str, float], ...]:
         names = product("rxz", ("at_least", "at_most"))
@@ -60,7 +60,7 @@ class SurfaceRule(Section):
         return si_form(Where, self, limits=self._limits())
 
 
-SetOrRule: Any = or_section(FileName, SurfaceRule, rows=Annotated[list[FileName], Field(min_length=1)])
+SetOrRule: Any = either(FileName, SurfaceRule, rows=Annotated[list[FileName], Field(min_length=1)])
 
 
 _LEAST_METRES, _MOST_METRES = 1e-9, 1e3
@@ -74,7 +74,7 @@ def _quotient(text: str) -> float:
     except (ValueError, ZeroDivisionError):
         metres = 0.0
     if not _LEAST_METRES <= metres <= _MOST_METRES:
-        raise refused((), text, f"a quotient such as 1/2540, from {_LEAST_METRES:g} to {_MOST_METRES:g} metres")
+        raise refused(text, f"a quotient such as 1/2540, from {_LEAST_METRES:g} to {_MOST_METRES:g} metres")
     return metres
 
 
@@ -91,10 +91,8 @@ class Oriented(BladeKind):
     """How a file of another program describes space."""
 
     base: Name | LeftOut = left_out("Blade that gives what is left out")
-    length_unit: LengthUnit = Field(description="Unit of the coordinates, or its length in metres, also as a quotient: 1/2540")
-    sense_check: bool = Field(
-        default=True, description="Whether a blade whose trailing edge leads, or whose pressure side is convex, is refused"
-    )
+    length_unit: LengthUnit = option("Unit of the coordinates, or its length in metres, also as a quotient: 1/2540")
+    sense_check: bool = option("Whether a blade whose trailing edge leads, or whose pressure side is convex, is refused", True)
 
     def orientation(self) -> Orientation:
         """Unit and axes as the import takes them."""
@@ -114,21 +112,21 @@ class Oriented(BladeKind):
 class MeshEntry(Oriented):
     """A blade given by a mesh of solid elements."""
 
-    key: ClassVar[str] = "mesh"
-    file_keys: ClassVar[tuple[str, ...]] = ("mesh",)
+    key = "mesh"
+    file_keys = ("mesh",)
 
-    mesh: FileName = Field(description="Mesh file: .inp, .msh, .vtu, .med, .bdf, .nas, or .cdb with the package meshlane")
+    mesh: FileName = option("Mesh file: .inp, .msh, .vtu, .med, .bdf, .nas, or .cdb with the package meshlane")
     material: MaterialSection
-    root: SetOrRule = Field(description="Clamped nodes: sets of the file (BOUNDARY: those of *BOUNDARY) or a rule")
-    tip: SetOrRule = Field(description="Faces towards the casing: a set of the file or a rule")
-    contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
-    kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
+    root: SetOrRule = option("Clamped nodes: sets of the file (BOUNDARY: those of *BOUNDARY) or a rule")
+    tip: SetOrRule = option("Faces towards the casing: a set of the file or a rule")
+    contact: Contact = option(CONTACT_IN_WORDS, "patches")
+    kinematics: Kinematics = option(KINEMATICS_IN_WORDS, "quadratic")
     stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
 
     def _check(self) -> None:
         refuse_taken_names(self.stress_regions or ())
         if self.hub_zr_m is not None and self.hub_zr_m[0][0] == self.hub_zr_m[1][0]:
-            raise refused(("hub_zr_m",), "the same z twice", "two points [z, r] of different z")
+            raise refused("the same z twice", "two points [z, r] of different z", "hub_zr_m")
 
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
@@ -146,16 +144,15 @@ class MeshEntry(Oriented):
 class MatricesEntry(Oriented):
     """A blade given by matrices, full or reduced; there is no stress without a mesh."""
 
-    key: ClassVar[str] = "matrices"
-    file_keys: ClassVar[tuple[str, ...]] = ("matrices",)
-    has_material: ClassVar[bool] = False
+    key = "matrices"
+    file_keys = ("matrices",)
+    has_material = False
 
-    matrices: FileName = Field(description="Folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
-    contact: Literal["points", "patches"] = Field(
-        default="points",
-        description="Contact acts on the nodes of boundary.csv (points) or on patches of its complete tip line",
+    matrices: FileName = option("Folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
+    contact: Literal["points", "patches"] = option(
+        "Contact acts on the nodes of boundary.csv (points) or on patches of its complete tip line", "points"
     )
-    kinematics: Literal["linear"] = Field(default="linear", description="Always: matrices say nothing of large displacements")
+    kinematics: Literal["linear"] = option("Always: matrices say nothing of large displacements", "linear")
 
     def source(self, root: Path) -> MatricesSource:
         """Matrices to import, from the folder `root`; ImportRefused where files are missing."""

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Discriminator, Field, Tag
@@ -12,9 +12,8 @@ from r37core.base.io import TextFileError
 from r37core.config.blade_sections import CONTACT_IN_WORDS, KINEMATICS_IN_WORDS, Contact, Kinematics, MaterialSection
 from r37core.config.blades import BladeEntry
 from r37core.config.declaring import si_form
-from r37core.config.section import FileName, LeftOut, Section, left_out, or_section, refused
+from r37core.config.section import FileName, LeftOut, Section, either, left_out, option, refused
 from r37core.config.shape_keys import SECTION_KEYS, ShapeKeys
-from r37core.config.varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
 from r37core.fem.orientation import Orientation
 from r37imports.refusal import ASKED, ImportRefused
 from r37imports.sections import placed
@@ -31,16 +30,16 @@ MeridianPoint = Annotated[list[Annotated[float, Field(ge=-100, le=100)]], Field(
 class EndSurface(Section):
     """Surface of revolution that cuts the blade: a cylinder or a cone."""
 
+    one_of = (("radius_m", "cone_zr_m"),)
+
     radius_m: Annotated[float, Field(ge=1e-3, le=100)] | LeftOut = left_out("Radius of a cylinder")
     cone_zr_m: Annotated[list[MeridianPoint], Field(min_length=2, max_length=2)] | LeftOut = left_out(
         "Two points [z, r] of a cone's straight meridian"
     )
 
     def _check(self) -> None:
-        if (self.radius_m is None) == (self.cone_zr_m is None):
-            raise refused((), "none of radius_m and cone_zr_m, or both", "one of them")
         if self.cone_zr_m is not None and self.cone_zr_m[0][0] == self.cone_zr_m[1][0]:
-            raise refused(("cone_zr_m",), "the same z twice", "two points [z, r] of different z")
+            raise refused("the same z twice", "two points [z, r] of different z", "cone_zr_m")
 
     def meridian(self) -> Meridians:
         """Points (z, r) of the surface (m)."""
@@ -50,7 +49,7 @@ class EndSurface(Section):
         return ((0.0, self.radius_m),)
 
 
-End: Any = or_section(FileName, EndSurface)
+End: Any = either(FileName, EndSurface)
 
 
 def _end(which: str, other: str) -> Any:
@@ -69,29 +68,26 @@ _VARIED += ("hub.radius_m", "tip.radius_m")
 class SectionsEntry(ShapeKeys, Oriented):
     """A blade given by section curves, meshed as one with profiles is; with `vary` or `designs` a family."""
 
-    key: ClassVar[str] = "sections"
-    file_keys: ClassVar[tuple[str, ...]] = ("sections", "hub", "tip")
-    no_files: ClassVar[tuple[str, ...]] = (OWN, ASKED)
-    varied: ClassVar[tuple[str, ...]] = _VARIED
-    has_shape: ClassVar[bool] = True
+    key = "sections"
+    file_keys = ("sections", "hub", "tip")
+    no_files = (OWN, ASKED)
+    varied = _VARIED
+    has_shape = True
 
-    sections: FileName = Field(description=".curve, .crv, .geomTurbo, or .csv with section, x, y, z")
+    sections: FileName = option(".curve, .crv, .geomTurbo, or .csv with section, x, y, z")
     length_unit: Annotated[
         Annotated[LengthUnit, Tag("unit")] | Annotated[Literal["?"], Tag("asked")],
         Discriminator(lambda value: "asked" if value == ASKED else "unit"),
-    ] = Field(description="Unit, or ? to ask")
-    rotation: Literal["positive", "negative", "?"] = Field(description="Sense about rotor_axis, or ? to ask")
+    ] = option("Unit, or ? to ask")
+    rotation: Literal["positive", "negative", "?"] = option("Sense about rotor_axis, or ? to ask")
     hub: End | LeftOut = _end("first", "hub")
     tip: End | LeftOut = _end("last", "shroud")
-    pressure_side: Literal["forward", "backward"] = Field(
-        default="forward", description="forward: the pressure side faces the rotation, as in a compressor"
+    pressure_side: Literal["forward", "backward"] = option(
+        "forward: the pressure side faces the rotation, as in a compressor", "forward"
     )
     material: MaterialSection
-    contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
-    kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
-    vary: Vary = vary_field("sweep_percent or material.density_kg_m3")
-    combine: Combine = COMBINE
-    designs: DesignTable = designs_field("blade")
+    contact: Contact = option(CONTACT_IN_WORDS, "patches")
+    kinematics: Kinematics = option(KINEMATICS_IN_WORDS, "quadratic")
 
     def definition(self, name: str, root: Path, check_sense: bool) -> SectionsDefinition:
         """The blade's definition, of files from the folder `root`.

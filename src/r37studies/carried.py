@@ -18,7 +18,7 @@ class Carried:
         self.settings = settings
 
     def __reduce__(self) -> Any:
-        return _read, (self.settings.documents.config, self.settings.root)
+        return _read, (self.settings.document, self.settings.root)
 
 
 def _read(config: Document, root: Path) -> Carried:

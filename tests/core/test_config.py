@@ -111,7 +111,7 @@ def test_laws_beyond_what_a_run_can_bear_are_remarked_on(config_copy, scene, cha
     others = {name: {"friction": {"coefficient": 5}} for name in {"physical_direct", "elastic_direct"} - {scene}}
     overlay(config_copy, "scenes.yaml", yaml.safe_dump({scene: changes, **others}))
     overlay(config_copy, "config.yaml", f"scenes: [{scene}]")
-    remarks = remarks_on_laws(read_settings(config_copy))
+    remarks = [*remarks_on_laws(read_settings(config_copy))]
     begins = f"scene '{scene}': {said}"
     assert [remark[: len(begins)] for remark in remarks] == ([begins] if said else [])
     assert set(remarks) <= set(remarks_of_pipeline(read_settings(config_copy)))

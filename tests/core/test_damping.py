@@ -17,7 +17,7 @@ from r37core.config import Document
 from r37core.config.changed_numbers import scene_numbers
 from r37core.config.declaring import section_of, si
 from r37core.config.scenes import DampingSection, SceneEntry
-from r37core.config.section import or_section
+from r37core.config.section import either
 from r37core.contact.scene import DampingRow, DampingTable, Rotor
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS, exact_modal, recursion
@@ -164,7 +164,7 @@ class Proportional:
 
 def test_a_second_law_is_a_dataclass_and_its_section():
     """One in contact/scene.py, the other in config/scenes.py."""
-    laws = TypeAdapter(or_section(float, DampingSection, section_of(Proportional, "Damping in proportion.")))
+    laws = TypeAdapter(either(float, DampingSection, section_of(Proportional, "Damping in proportion.")))
     law = si(laws.validate_python({"mass_rad_s": 4.0, "stiffness_s": 0.5}))
     assert with_damping(FREE, law).damping(np.array([1.0, 2.0]), 100.0).tolist() == [2.25, 1.5]
     assert si(laws.validate_python(TABLE)) == DampingTable((1000.0, 8000.0), (0.0005, 0.005))

@@ -255,6 +255,9 @@ REFUSED = {
         "scene", "abradable", rotor={"blades": 2}, results=["signal"]
     ),
     "vary: found .*50.*; allowed: mapping": call("blade", "S100", vary=[50], name="Some"),
+    "Some_90.stagger_deg: blade Some_90: stagger_deg: span 0%: inlet_angle is 143": call(
+        "blade", "Ref", vary={"stagger_deg": [0, 90]}, name="Some"
+    ),
     "blade: found the family Some; allowed: a blade, such as Some_50": lambda: r37.campbell(
         r37.blade("S100", vary={"sweep_percent": [50]}, name="Some")
     ),

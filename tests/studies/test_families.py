@@ -73,7 +73,7 @@ def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades
 def test_a_grid_has_every_value_with_every_other(with_blades):
     settings = with_blades(GRID)
     names = ["Grid_-2p5_8000", "Grid_-2p5_4500", "Grid_5_8000", "Grid_5_4500"]
-    assert list(Families(settings).families["blade"]["Grid"].designs) == names
+    assert list(Families(settings).families["blade"]["Grid"]) == names
     assert settings.blades["Grid_5_4500"].material.density == 4500.0
     assert settings.blades["Grid_5_4500"].material.youngs_modulus == 180e9
     assert settings.blades["Grid_-2p5_8000"].definition.chordwise_sweep_angle == pytest.approx(np.radians(-2.5))
@@ -87,7 +87,11 @@ def test_a_table_has_one_design_a_row(with_blades):
     table = "blade,chordwise_sweep_deg,material.density_kg_m3\nForward,5,8000\nBack-1,-5,7.5e3\n"
     settings = with_blades("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])
     assert list(settings.blades) == ["Forward", "Back-1", "Ref"]
-    assert Families(settings).families["blade"]["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
+    keys = "chordwise_sweep_deg", "material.density_kg_m3"
+    designs = {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
+    assert Families(settings).families["blade"]["Mine"] == {
+        name: dict(zip(keys, values, strict=True)) for name, values in designs.items()
+    }
     assert settings.blades["Back-1"].material.density == 7500.0
 
 
@@ -257,7 +261,7 @@ TWO_SWEEPS = "Sweep: { base: S100, vary: { sweep_percent: [50, 100] } }"
 def test_numbers_of_a_family_stay_what_they_are(with_scenes, key, given, values):
     """Whole ones, also where the scene does not write them, and small ones."""
     settings = with_scenes(f"Mine: {{ {CASING}, {LINING}, vary: {{ {key}: {given} }} }}", scenes=["Mine"], blades=["Ref"])
-    found = [value for (value,) in settings.scene_designs.families["Mine"].designs.values()]
+    found = [design[key] for design in settings.scene_designs.families["Mine"].values()]
     assert found == values
 
 

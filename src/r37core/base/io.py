@@ -1,5 +1,6 @@
 """Atomic writes, text files of users, one clear message for a file that cannot be read. Light: simulation jobs import it."""
 
+import copyreg
 import errno
 import json
 import logging
@@ -48,13 +49,8 @@ class CarriedError(ValueError):
     """Error that a process can raise of another one, although it is made from something else than its message."""
 
     def __reduce__(self) -> Any:
-        return _same_error, (type(self), self.args, vars(self))
-
-
-def _same_error(kind: type[CarriedError], args: tuple[Any, ...], attributes: dict[str, Any]) -> CarriedError:
-    error = kind.__new__(kind, *args)
-    vars(error).update(attributes)
-    return error
+        # made without __init__
+        return copyreg.__newobj__, (type(self), *self.args), vars(self)  # type: ignore[attr-defined]
 
 
 class EntryRefused(CarriedError):

@@ -95,11 +95,10 @@ def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: floa
                 f"allowed: at most {LARGEST_NUMBER} speeds together"
             )
         counted += int(intervals) + 1
-        if "refine_to" in entry:
-            refined.append(_refined(start, step, finest, int(intervals), unit))
-            speeds += [refined[-1].speed(index) for index in refined[-1].coarse_indices()]
-        else:
-            speeds += [number * rad_s for number in spaced(start, stop, step)]
+        # without refine_to all of it is coarse
+        grid = _grid(start, step, finest, int(intervals), unit)
+        speeds += [grid.speed(index) for index in grid.coarse_indices()]
+        refined += [grid] if "refine_to" in entry else []
     for low, high in pairwise(sorted(refined, key=lambda grid: grid.start)):
         if high.speed(0) < low.speed(low.last):
             raise SpeedError(
@@ -115,7 +114,7 @@ def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: floa
     return SpeedPlan(tuple(together), tuple(refined))
 
 
-def _refined(start: float, step: float, refine_to: float, last: int, unit: str) -> RefinedRange:
+def _grid(start: float, step: float, refine_to: float, last: int, unit: str) -> RefinedRange:
     coarse = round(step / refine_to)
     if coarse < 1 or abs(coarse * refine_to - step) > 1e-9 * step:
         raise SpeedError(f"found refine_to {refine_to:g} with steps of {step:g} {unit}; allowed: the step is a multiple of it")

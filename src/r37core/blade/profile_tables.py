@@ -65,22 +65,21 @@ def stacking_table_rows(file: Path, blade: str) -> list[dict[str, float]]:
     return [{column: float(row[column]) for column in STACKING_COLUMNS} for row in rows]
 
 
-def read_designs(file: Path, kind: str) -> tuple[tuple[str, ...], dict[str, tuple[float, ...]]]:
-    """Keys and, by name, their values of the designs of a CSV table, in the units of the keys.
+def read_designs(file: Path, kind: str) -> dict[str, dict[str, float]]:
+    """Designs of a CSV table: values by name and key, in the units of the keys.
 
     `kind`: column of the names, blade or scene. Raises BladeShapeError for missing columns, unreadable numbers and a name given
     twice; TextFileError as for others.
     """
     rows = _rows(read_text(file), None, (kind,))
-    keys = tuple(column for column in rows[0] if column != kind) if rows else ()
-    if not keys:
+    if not rows or len(rows[0]) < 2:
         raise BladeShapeError(
             f"the table has no designs; it needs the column {kind}, one more for each key, and a row for each {kind}"
         )
     twice = [name for name, times in Counter(row[kind] for row in rows).items() if times > 1]
     if twice:
         raise BladeShapeError(f"the {kind} '{twice[0]}' is given twice")
-    return keys, {row[kind]: tuple(row[key] for key in keys) for row in rows}
+    return {row[kind]: {key: value for key, value in row.items() if key != kind} for row in rows}
 
 
 def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...]:

@@ -43,13 +43,13 @@ class RegionSection(Section):
         bounds = ("minimum_z_m", "maximum_z_m"), ("minimum_span", "maximum_span")
         for (lower, lowest), (upper, highest) in (((key, getattr(self, key)) for key in keys) for keys in bounds):
             if None not in (lowest, highest) and not lowest < highest:
-                raise refused((lower,), f"{lowest:g}", f"less than {upper} ({highest:g})")
+                raise refused(f"{lowest:g}", f"less than {upper} ({highest:g})", lower)
 
 
 def refuse_taken_names(regions: Iterable[str]) -> None:
     """Refuse names of regions that other columns of ranking.csv end with."""
     for name in {"operating", "rest", "scatter", "worst"}.intersection(regions):
-        raise refused(("stress_regions", name), f"'{name}'", "another name: columns of ranking.csv end like this")
+        raise refused(f"'{name}'", "another name: columns of ranking.csv end like this", "stress_regions", name)
 
 
 def chosen_regions(sections: Mapping[str, RegionSection | None]) -> dict[str, RegionChoice]:

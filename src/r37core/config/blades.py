@@ -9,7 +9,7 @@ from operator import or_
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import Discriminator, Field, RootModel, Tag
+from pydantic import Discriminator, RootModel, Tag
 
 from r37core.base.io import EntryRefused, TextFileError
 from r37core.blade.definition import BladeDefinition, Definition, Shape
@@ -35,11 +35,10 @@ from .blade_sections import (
     chosen_regions,
     refuse_taken_names,
 )
-from .declaring import si, si_fields
+from .declaring import si
 from .document import ConfigError, Document, chain_of_bases
-from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
-from .shape_keys import END_KEYS, SECTION_KEYS, SHARES, SHIFTS, ShapeKeys, changed_keys, section_laws, shape_by_laws
-from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
+from .section import ByName, FileName, LeftOut, Name, Section, left_out, option, plain, refused
+from .shape_keys import END_KEYS, SECTION_KEYS, SHARES, SHIFTS, ShapeKeys, changed_keys, changed_shape
 
 
 class GivenShape(Section):
@@ -61,17 +60,14 @@ class BladeEntry(ShapeKeys, GivenShape):
 
     contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}; by default that of the base, without one patches")
     kinematics: Kinematics | LeftOut = left_out(f"{KINEMATICS_IN_WORDS}; by default that of the base, without one quadratic")
-    sense_check: bool = Field(default=True, description="Whether a blade whose trailing edge leads is refused")
+    sense_check: bool = option("Whether a blade whose trailing edge leads is refused", True)
     stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions beside those of config.yaml; by default of the base")
     material: MaterialSection = MaterialSection()
-    vary: Vary = vary_field("sweep_percent or material.density_kg_m3")
-    combine: Combine = COMBINE
-    designs: DesignTable = designs_field("blade")
 
     def _check(self) -> None:
         refuse_taken_names(self.stress_regions or ())
         if self.profiles is None and self.base is None:
-            raise refused((), "neither profiles nor base", "one of them, or sections, or a mesh or matrices of another program")
+            raise refused("neither profiles nor base", "one of them, or sections, or a mesh or matrices of another program")
 
 
 @cache
@@ -146,12 +142,12 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     Raises ConfigError for a base that is not there or runs in a circle, a material with gaps, tables that cannot be read or
     have an impossible shape, and a mesh or matrices that are not there; a mesh itself is looked into when it is imported.
     """
-    chain = chain_of_bases(name, lambda link: getattr(entries[link], "base", None), entries, document, "blade")
+    chain = chain_of_blades(name, entries, document)
     first, entry = chain[0], entries[chain[0]]
     check_sense = all(entries[link].sense_check for link in chain)
     if isinstance(entry, BladeKind) and not entry.has_material:
         if len(chain) > 1:
-            raise document.refusal((chain[1], "base"), f"'{first}', a blade of {entry.key}", "a blade with profiles or a mesh")
+            raise document.refusal(f"'{first}', a blade of {entry.key}", "a blade with profiles or a mesh", chain[1], "base")
         definition = _described(entry, first, root, document, check_sense)
         return BladeSettings(definition, None, entry.contact, entry.kinematics)
     material = _material(chain, entries, document)
@@ -167,7 +163,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
             keys = [key for key in (*SHIFTS, *SHARES, *SECTION_KEYS) if getattr(entries[link], key) is not None]
             if keys := keys if entries[link].sense_check else [*keys, "sense_check"]:
                 raise document.refusal(
-                    (link, keys[0]), f"{keys[0]} with the {entry.key} of {first}", "another material, no other shape"
+                    f"{keys[0]} with the {entry.key} of {first}", "another material, no other shape", link, keys[0]
                 )
         with document.blamed((name, "material"), ValueError):
             material.check_units()
@@ -203,10 +199,12 @@ def _shape(entry: Any, first: str, root: Path, document: Document, check_sense: 
 def _described(entry: BladeKind, name: str, root: Path, document: Document, check_sense: bool) -> Any:
     """The definition that an entry of another kind gives, with its files found."""
     with readable_table(getattr(entry, entry.key), (name, entry.key), document):
-        try:
-            return entry.definition(name, root, check_sense)
-        except EntryRefused as error:
-            raise document.error((name, error.key or entry.key), str(error)) from None
+        return entry.definition(name, root, check_sense)
+
+
+def chain_of_blades(name: str, entries: Mapping[str, Any], document: Document) -> list[str]:
+    """Names from the entry without a base down to the blade `name`. Raises ConfigError as chain_of_bases."""
+    return chain_of_bases(name, lambda link: getattr(entries[link], "base", None), entries, document, "blade")
 
 
 def link_with(key: str, chain: Sequence[str], entries: Mapping[str, Any]) -> str:
@@ -217,7 +215,7 @@ def link_with(key: str, chain: Sequence[str], entries: Mapping[str, Any]) -> str
 def _changed(blade: str, entry: ShapeKeys, shape: Shape, document: Document) -> Shape:
     """The shape, which has the changes of the base, with those that the entry of a blade makes on top."""
     try:
-        return shape_by_laws(shape, section_laws(entry))
+        return changed_shape(shape, entry)
     except SectionChangeError as error:
         keys = changed_keys(error)
         raise document.error((blade, keys[0]), f"blade {blade}: {' and '.join(keys)}: {error}") from None
@@ -239,7 +237,7 @@ def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Docume
 def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> dict[str, Any]:
     """Arguments of BladeDefinition for a sweep given in one of the three ways."""
     if key == "chordwise_sweep_deg":
-        return {"chordwise_sweep_angle": si_fields([(key, value)])["chordwise_sweep"], "stacking": None}
+        return {"chordwise_sweep_angle": math.radians(value), "stacking": None}
     if key == "stacking_table":
         with readable_table(value, (blade, key), document):
             rows = stacking_rows(stacking_table_rows(root / value, blade))
@@ -263,8 +261,8 @@ def _scaled(blade: str, entry: ShapeKeys, shift: dict[str, Any], document: Docum
 
 
 @contextmanager
-def readable_table(file: str, path: tuple[str, str], document: Document) -> Iterator[None]:
-    """Turn the errors of reading a table `file`, that is named at `path`, into ConfigErrors."""
+def readable_table(file: str, path: tuple[str, str], document: Document, kind: str = "blade") -> Iterator[None]:
+    """Turn the errors of reading a table `file`, that is named at `path` in the entry of a `kind`, into ConfigErrors."""
     try:
         yield
     except FileNotFoundError:
@@ -272,6 +270,8 @@ def readable_table(file: str, path: tuple[str, str], document: Document) -> Iter
     except OSError as error:
         raise document.error(path, f"{file} cannot be read: {error.strerror}") from None
     except TextFileError as error:
-        raise ConfigError(f"{file}:{error.line}: blade {path[0]}: {error.reason}") from None
+        raise ConfigError(f"{file}:{error.line}: {kind} {path[0]}: {error.reason}") from None
     except BladeShapeError as error:
-        raise ConfigError(f"{file}: blade {path[0]}: {error}") from None
+        raise ConfigError(f"{file}: {kind} {path[0]}: {error}") from None
+    except EntryRefused as error:
+        raise document.error((path[0], error.key or path[1]), str(error)) from None

@@ -11,7 +11,7 @@ from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 
 from .declaring import declared_by, si, si_fields
-from .section import LeftOut, Section, Without, check_table, left_out, refused
+from .section import LeftOut, Section, Without, check_table, left_out, option, refused
 
 _HEIGHTS = ("amplitude_clearances", "amplitude_m")
 """Keys of the height of the lobes, of which a scene has one."""
@@ -26,15 +26,13 @@ class GrowthSection(Section):
 
     one_of = (("speeds_rad_s", "speeds_rpm"),)
 
-    speeds_rad_s: list[Annotated[float, Field(ge=0, le=1e6)]] | LeftOut = Field(
-        default=None, min_length=2, description="Ascending speeds, from 0 to at least structure.maximum_speed_rad_s"
+    speeds_rad_s: Annotated[list[Annotated[float, Field(ge=0, le=1e6)]], Field(min_length=2)] | LeftOut = left_out(
+        "Ascending speeds, from 0 to at least structure.maximum_speed_rad_s"
     )
-    speeds_rpm: list[Annotated[float, Field(ge=0, le=9.5e6)]] | LeftOut = Field(
-        default=None, min_length=2, description="The same speeds in revolutions per minute"
+    speeds_rpm: Annotated[list[Annotated[float, Field(ge=0, le=9.5e6)]], Field(min_length=2)] | LeftOut = left_out(
+        "The same speeds in revolutions per minute"
     )
-    growth_m: _Changes = Field(
-        min_length=2, description="Growth away from the blade at each speed, normal to the casing; 0 at the first"
-    )
+    growth_m: _Changes = option("Growth away from the blade at each speed, normal to the casing; 0 at the first", min_length=2)
 
     def _check(self) -> None:
         check_table(self, "speeds_rpm" if self.speeds_rad_s is None else "speeds_rad_s", "growth_m", "cold_m")
@@ -43,11 +41,11 @@ class GrowthSection(Section):
 class ChangeSection(Section):
     """Change of the clearance within a run, by heat and wear of the tip; linear between revolutions, constant beyond."""
 
-    revolutions: list[Annotated[float, Field(ge=0, le=20000)]] = Field(
-        min_length=2, description="Ascending revolutions from the start of each run, the first of them 0"
+    revolutions: list[Annotated[float, Field(ge=0, le=20000)]] = option(
+        "Ascending revolutions from the start of each run, the first of them 0", min_length=2
     )
-    change_m: _Changes = Field(
-        min_length=2, description="Change at each, normal to the casing, positive where the gap opens; 0 at the first"
+    change_m: _Changes = option(
+        "Change at each, normal to the casing, positive where the gap opens; 0 at the first", min_length=2
     )
 
     def _check(self) -> None:
@@ -57,10 +55,8 @@ class ChangeSection(Section):
 class ClearanceSection(Section):
     """Clearance that changes with the speed, in place of clearance_m."""
 
-    cold_m: float = Field(
-        ge=1e-6, le=0.1, description="Clearance at rest, normal to the casing; amplitude_clearances counts it"
-    )
-    centrifugal: bool = Field(default=True, description="Whether the centrifugal load lengthens and untwists the blade")
+    cold_m: float = option("Clearance at rest, normal to the casing; amplitude_clearances counts it", ge=1e-6, le=0.1)
+    centrifugal: bool = option("Whether the centrifugal load lengthens and untwists the blade", True)
     casing_growth: GrowthSection | LeftOut = None
 
 
@@ -70,7 +66,7 @@ class RingSection(Section):
 
     def _check(self) -> None:
         if self.thickness_m > 0.2 * self.radius_m:
-            raise refused(("thickness_m",), f"{self.thickness_m:g}", f"at most a fifth of radius_m, {0.2 * self.radius_m:g}")
+            raise refused(f"{self.thickness_m:g}", f"at most a fifth of radius_m, {0.2 * self.radius_m:g}", "thickness_m")
 
 
 @declared_by(RingMode)

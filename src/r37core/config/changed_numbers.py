@@ -86,12 +86,17 @@ def check_known(numbers: Iterable[VariedNumber], scene_keys: Iterable[str], docu
         if number.key not in known:
             what = "one of" if number.kind == BLADE else "a number of the scenes, by its dotted key:"
             allowed = f"{what} {', '.join(known)}{did_you_mean(number.key, known)}"
-            raise document.refusal((*path, number.section, number.key), single_line(number.key), allowed)
+            raise document.refusal(single_line(number.key), allowed, *path, number.section, number.key)
+
+
+def kind_of(entry: Section) -> str:
+    """Kind of an entry, BLADE or SCENE."""
+    return SCENE if isinstance(entry, SceneEntry) else BLADE
 
 
 def entry_with(entry: E, values: Mapping[str, float]) -> E:
     """The entry, without a family's keys, with values at dotted keys. Raises ImpossibleValueError."""
-    kind = SCENE if isinstance(entry, SceneEntry) else BLADE
+    kind = kind_of(entry)
     content = entry.model_dump(exclude_none=True, exclude_unset=True, exclude=set(FAMILY_KEYS))
     for key, value in values.items():
         try:
@@ -138,7 +143,7 @@ def _changed_shape(shape: Shape, entries: Iterable[shape_keys.ShapeKeys], keys: 
     """The shape with changes of entries on top of each other, for which `keys` are to blame."""
     try:
         for entry in entries:
-            shape = shape_keys.shape_by_laws(shape, shape_keys.section_laws(entry))
+            shape = shape_keys.changed_shape(shape, entry)
     except SectionChangeError as error:
         blamed = [key for key in keys if key.split(".")[0] in shape_keys.changed_keys(error)]
         text = str(error) if len(blamed) == 1 else f"{' and '.join(blamed)}: {error}"

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from typing import Any, Literal, Self
 
-from pydantic import Field, create_model
+from pydantic import create_model
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
 from r37core.contact.scene import Scene
@@ -13,8 +13,8 @@ from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice
 
 from .blade_sections import Contact, Kinematics, RegionSection, refuse_taken_names
 from .declaring import declared_by, section_of, si
-from .section import AllOrNames, ByName, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
-from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
+from .section import AllOrNames, ByName, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, option, refused
+from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule
 
 
 @declared_by(BoundaryChoice)
@@ -37,28 +37,28 @@ _SHIPPED_REGIONS: dict[str, RegionSection | None] = {
 class StructureSection(Section):
     """Geometry and reduced model."""
 
-    edges: Literal["round", "blunt"] = Field(default="round", description="Shape of the leading and trailing edges")
+    edges: Literal["round", "blunt"] = option("Shape of the leading and trailing edges", "round")
     boundary: Boundary = Boundary()
-    maximum_speed_rad_s: Speed = Field(default=2000.0, description="Highest speed of the basis and the Campbell diagram")
+    maximum_speed_rad_s: Speed = option("Highest speed of the basis and the Campbell diagram", 2000.0)
     kinematics: Kinematics | LeftOut = left_out("Kinematics of all blades, in place of `kinematics` in blades.yaml")
-    stress_regions: ByName[RegionSection | None] = Field(
-        default=_SHIPPED_REGIONS, description="Regions of the stress; the first decides, null leaves one out of every blade"
+    stress_regions: ByName[RegionSection | None] = option(
+        "Regions of the stress; the first decides, null leaves one out of every blade", _SHIPPED_REGIONS
     )
 
     def _check(self) -> None:
         if not any(self.stress_regions.values()):
-            raise refused(("stress_regions",), "no region", "one or more")
+            raise refused("no region", "one or more", "stress_regions")
         refuse_taken_names(self.stress_regions)
 
 
 class CampbellSection(Section):
     """The Campbell diagram."""
 
-    speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6, description="Step between the speeds of the diagram")
-    modes: int = Field(default=10, ge=3, le=30, description="Number of modes drawn and kept")
-    highest_engine_order: int = Field(default=20, ge=1, le=100, description="Highest engine order of the crossings")
-    largest_tangential_displacement_m: float = Field(
-        default=0.01, ge=1e-9, le=1, description="Displacement of the leading edge in the dynamic clearance"
+    speed_step_rad_s: float = option("Step between the speeds of the diagram", 50.0, ge=0.1, le=1e6)
+    modes: int = option("Number of modes drawn and kept", 10, ge=3, le=30)
+    highest_engine_order: int = option("Highest engine order of the crossings", 20, ge=1, le=100)
+    largest_tangential_displacement_m: float = option(
+        "Displacement of the leading edge in the dynamic clearance", 0.01, ge=1e-9, le=1
     )
 
 
@@ -71,31 +71,29 @@ class WindowSection(Section):
 
     def _check(self) -> None:
         if not self.first < self.last:
-            raise refused(("last",), f"{self.last:g}", f"more than first ({self.first:g})")
+            raise refused(f"{self.last:g}", f"more than first ({self.first:g})", "last")
 
 
 class DirectRefinementSection(Section):
     """Settings for scenes with bare casing, whose response scatters from speed to speed."""
 
-    windows: list[WindowSection] = Field(default=[], description="Windows in scenes with bare casing")
-    largest_share: float = Field(
-        default=0.125, ge=1e-3, le=1, description="Largest share of the finest grid in scenes with bare casing"
-    )
+    windows: list[WindowSection] = option("Windows in scenes with bare casing", [])
+    largest_share: float = option("Largest share of the finest grid in scenes with bare casing", 0.125, ge=1e-3, le=1)
 
 
 @declared_by(RefinementChoice)
 class RefinementSection(Section):
     """Adaptive sampling of ranges with `refine_to`."""
 
-    windows: list[WindowSection] = Field(
-        default=[
+    windows: list[WindowSection] = option(
+        "Speed windows in which interactions are expected",
+        [
             WindowSection.model_validate(window)
             for window in (
                 {"mode": "1B", "highest_engine_order": 8, "first": 0.01, "last": 0.06, "step_rad_s": 5.0},
                 {"mode": "1T", "highest_engine_order": 20, "first": 0.0, "last": 0.02, "step_rad_s": 5.0},
             )
         ],
-        description="Speed windows in which interactions are expected",
     )
     direct: DirectRefinementSection = DirectRefinementSection()
 
@@ -113,7 +111,7 @@ class OperatingDwellSection(Section):
     def _check(self) -> None:
         dwell = si(self)
         if dwell.stop <= dwell.start:
-            raise refused((), f"a dwell from {dwell.start:g} to {dwell.stop:g} rad/s", "a last speed above the first one")
+            raise refused(f"a dwell from {dwell.start:g} to {dwell.stop:g} rad/s", "a last speed above the first one")
 
 
 @declared_by(OperatingRange)
@@ -122,22 +120,22 @@ class OperatingSection(Section):
 
     one_of = (("idle_rad_s", "idle_rpm"), ("redline_rad_s", "redline_rpm"))
 
-    dwell: list[OperatingDwellSection] = Field(
-        default=[], description="Speeds at which more time is spent; the rest of it is spread evenly over the range"
+    dwell: list[OperatingDwellSection] = option(
+        "Speeds at which more time is spent; the rest of it is spread evenly over the range", []
     )
 
     def _check(self) -> None:
         operating: OperatingRange = si(self)
         both = f"{operating.idle:.6g} to {operating.redline:.6g} rad/s"
         if operating.redline <= operating.idle:
-            raise refused((), f"an operating range from {both}", "a redline above idle")
+            raise refused(f"an operating range from {both}", "a redline above idle")
         for number, dwell in enumerate(operating.dwell):
             if dwell.start < operating.idle or dwell.stop > operating.redline:
                 speeds = f"{dwell.start:.6g} to {dwell.stop:.6g} rad/s"
-                raise refused(("dwell", number), speeds, f"speeds between idle and redline, {both}")
+                raise refused(speeds, f"speeds between idle and redline, {both}", "dwell", number)
         total = sum(dwell.share for dwell in operating.dwell)
         if total > 1.0 + 1e-9:
-            raise refused(("dwell",), f"{100.0 * total:g} percent of the time", "at most 100 percent together")
+            raise refused(f"{100.0 * total:g} percent of the time", "at most 100 percent together", "dwell")
 
 
 class Run(Section):
@@ -149,35 +147,28 @@ class Run(Section):
 class Config(Section):
     """config.yaml, what to run."""
 
-    blades_file: FileName = Field(default="config/blades.yaml", description="File with the blades")
-    fidelity_file: FileName = Field(default="config/fidelity.yaml", description="File with the accuracy levels")
-    scenes_file: FileName = Field(default="config/scenes.yaml", description="File with the scenes")
-    blades: AllOrNames = Field(description="Blades to run")
-    scenes: AllOrNames = Field(description="Scenes to run")
-    fidelity: Name = Field(description="Accuracy level, or auto: the cheapest level within the tolerance")
-    speeds: SpeedList = Field(
-        default=[SpeedRange(start=750.0, stop=2000.0)], description="Speeds to simulate, as numbers and ranges"
-    )
+    blades_file: FileName = option("File with the blades", "config/blades.yaml")
+    fidelity_file: FileName = option("File with the accuracy levels", "config/fidelity.yaml")
+    scenes_file: FileName = option("File with the scenes", "config/scenes.yaml")
+    blades: AllOrNames = option("Blades to run")
+    scenes: AllOrNames = option("Scenes to run")
+    fidelity: Name = option("Accuracy level, or auto: the cheapest level within the tolerance")
+    speeds: SpeedList = option("Speeds to simulate, as numbers and ranges", [SpeedRange(start=750.0, stop=2000.0)])
     speeds_rpm: RpmList | LeftOut = left_out("The same speeds in revolutions per minute; results stay in rad/s")
-    speeds_for: list[SpeedRule] = Field(
-        default=[], description="Other speeds for some blades or scenes; the first entry that fits counts"
-    )
+    speeds_for: list[SpeedRule] = option("Other speeds for some blades or scenes; the first entry that fits counts", [])
     structure: StructureSection = StructureSection()
     operating: OperatingSection | LeftOut = left_out("Speeds in operation, which results are judged by as well")
     interactions: Interactions = Interactions()
     refinement: RefinementSection = RefinementSection()
-    tolerance: float = Field(
-        default=0.05,
-        ge=1e-6,
-        le=1,
-        description="Accepted relative error of rms, displacement and stress at an interaction; fidelity auto uses it",
+    tolerance: float = option(
+        "Accepted relative error of rms, displacement and stress at an interaction; fidelity auto uses it", 0.05, ge=1e-6, le=1
     )
     run: Run = Run()
     campbell: CampbellSection = CampbellSection()
 
     def _check(self) -> None:
         if self.speeds_rpm is not None and "speeds" in self.model_fields_set:
-            refuse_both_units("speeds", "speeds_rpm")
+            raise refused("speeds and speeds_rpm", "one of them", "speeds_rpm")
 
 
 def config_model(sections: Iterable[ExtensionSection[Any]]) -> type[Config]:

@@ -42,7 +42,7 @@ def names_are_there(settings: Settings, path: KeyPath, section: Any) -> None:
     refusals = ConfigRefusals()
     for key, designs in (("blades", settings.designs), ("scenes", settings.scene_designs)):
         if getattr(section, key) not in (None, "all"):
-            refusals.of(settings.documents.known, (*path, key), getattr(section, key), designs.names, designs.document)
+            refusals.of(settings.document.known, (*path, key), getattr(section, key), designs.names, designs.document)
     refusals.tell()
 
 
@@ -52,7 +52,7 @@ def simulations_can_be_planned(settings: Settings) -> None:
     if number > LARGEST_NUMBER_OF_SIMULATIONS:
         planned = f"{number} simulations of {len(settings.blade_names)} blades in {len(settings.scene_names)} scenes"
         allowed = f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run; more in several, with a run.name each"
-        raise settings.documents.config.refusal(("speeds",), planned, allowed)
+        raise settings.document.refusal(planned, allowed, "speeds")
 
 
 def windows_have_crossings(settings: Settings) -> None:
@@ -71,7 +71,7 @@ def engine_order_is_known(settings: Settings, path: KeyPath, engine_order: int) 
     highest = settings.config.campbell.highest_engine_order
     if engine_order > highest:
         allowed = f"at most campbell.highest_engine_order ({highest})"
-        raise settings.documents.config.refusal(path, f"{engine_order}", allowed)
+        raise settings.document.refusal(f"{engine_order}", allowed, *path)
 
 
 def pairs_not_covered(settings: Settings, operating: OperatingRange) -> list[tuple[str, str]]:
@@ -88,7 +88,7 @@ def history_speeds_are_run(settings: Settings) -> None:
         for value, speed in zip(getattr(entry, key), chosen.stress_history_speeds, strict=True):
             if not any(speed in settings.speed_plans[blade, name].certain for blade in settings.blade_names):
                 allowed = "speeds that are simulated (add it to speeds or speeds_for in config.yaml)"
-                raise settings.documents.scenes.refusal((name, key), f"{value:g}", allowed)
+                raise settings.scene_designs.document.refusal(f"{value:g}", allowed, name, key)
 
 
 def slowest_speeds_can_be_run(settings: Settings) -> None:
@@ -104,12 +104,12 @@ def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> N
     if excess > 1.0:
         lowest = run.speed * excess
         rpm_hint = f" ({rounded_up(RPM * lowest)} rpm)" if str(path[-1]).endswith("_rpm") else ""
-        raise settings.documents.config.refusal(
-            path,
+        raise settings.document.refusal(
             f"{run.speed:g} rad/s, a revolution of {run.steps_per_revolution:.3g} steps of {run.time_step:g} s, {run.wording}",
             f"speeds from {rounded_up(lowest)} rad/s{rpm_hint} with this step and as many revolutions: a run has at most "
             f"{MOST_STEPS:.0e} steps, and the casing's shape at every step of a revolution takes at most "
             f"{LARGEST_TABLE / 2**20:.0f} MiB",
+            *path,
         )
 
 
@@ -123,17 +123,17 @@ def matrices_hold_their_terms(settings: Settings) -> None:
     if matrices and settings.structure.spin_softening:
         value = f"true with the blade '{matrices[0]}', given by matrices"
         allowed = "false; put the term into its K_<speed>"
-        raise settings.documents.config.refusal(("structure", "spin_softening"), value, allowed)
+        raise settings.document.refusal(value, allowed, "structure", "spin_softening")
 
 
 def kinematics_can_be_had(settings: Settings) -> None:
     """Large displacements are wanted of blades with a mesh, and those of second order with what carries them."""
-    structure, key, document = settings.structure, ("structure", "kinematics"), settings.documents.config
+    structure, key, document = settings.structure, ("structure", "kinematics"), settings.document
     wanted = {name: settings.kinematics_of(name) for name in settings.blades}
     matrices = [name for name in blades_of_matrices(settings) if wanted[name] != LINEAR]
     if matrices:
         origin = f"the blade '{matrices[0]}', given by matrices, which say nothing of large displacements"
-        raise document.refusal(key, f"{wanted[matrices[0]]} with {origin}", f"{LINEAR}, or the blade's mesh")
+        raise document.refusal(f"{wanted[matrices[0]]} with {origin}", f"{LINEAR}, or the blade's mesh", *key)
     quadratic = [name for name, kinematics in wanted.items() if kinematics == QUADRATIC]
     if not quadratic:
         return
@@ -144,12 +144,12 @@ def kinematics_can_be_had(settings: Settings) -> None:
     integrator = settings.fidelity.time_integration.integrator
     if integrator != EXACT_MODAL:
         level = f"the level '{settings.fidelity_name}', whose integrator {integrator} does not carry it"
-        raise document.refusal(key, f"{value} at {level}", f"{LINEAR} or {ROTATING}, or {_exact_level(settings)}")
+        raise document.refusal(f"{value} at {level}", f"{LINEAR} or {ROTATING}, or {_exact_level(settings)}", *key)
 
 
 def tips_have_room_for_patches(settings: Settings) -> None:
     """Patches are no finer than the tip's mesh, as far as it is known before it is made."""
-    mesh, document = settings.fidelity.mesh, settings.documents.config
+    mesh, document = settings.fidelity.mesh, settings.document
     for name, blade in settings.blades.items():
         for tip_line in dict.fromkeys(scene.tip_line for scene in settings.scenes.values()):
             boundary = settings.boundary_choice(name, tip_line)
@@ -172,30 +172,30 @@ def _exact_level(settings: Settings) -> str:
 
 def rotors_can_be_run(settings: Settings) -> None:
     """All blades press an elastic casing with the integrator whose forces are those at t_n, and their runs end together."""
-    integrator, documents = settings.fidelity.time_integration.integrator, settings.documents
+    integrator = settings.fidelity.time_integration.integrator
     for name, chosen in settings.scenes.items():
         if chosen.scene.rotor is not None and chosen.scene.casing.ring and integrator != EXACT_MODAL:
             value = f"a rotor in an elastic casing at the level '{settings.fidelity_name}', whose integrator is {integrator}"
-            raise documents.scenes.refusal((name, "rotor"), value, _exact_level(settings))
+            raise settings.scene_designs.document.refusal(value, _exact_level(settings), name, "rotor")
         if chosen.scene.rotor is not None and chosen.until_settled:
             path = (settings.fidelity_name, "time_integration", "until")
-            raise documents.levels.refusal(path, f"settled with the rotor of '{name}'", NO_ROTOR)
+            raise settings.levels_document.refusal(f"settled with the rotor of '{name}'", NO_ROTOR, *path)
 
 
 def clearances_reach_all_speeds(settings: Settings) -> None:
     """The growth of a casing is given up to the highest speed; the blades' own follows from their mesh."""
-    document, matrices = settings.documents.scenes, blades_of_matrices(settings)
+    document, matrices = settings.scene_designs.document, blades_of_matrices(settings)
     for name, chosen in settings.scenes.items():
         casing, path = chosen.scene.casing, (name, "casing", "clearance")
         modelled, run = settings.structure.maximum_speed_rad_s, fastest_of(settings, name)
         highest, what = (run, "the fastest of its speeds") if run > modelled else (modelled, "structure.maximum_speed_rad_s")
         if not casing.knows(highest):
             allowed = f"up to {what}, {highest:g} rad/s ({highest * RPM:.6g} rpm)"
-            raise document.refusal((*path, "casing_growth"), f"growth up to {casing.growth_speeds[-1]:g} rad/s", allowed)
+            raise document.refusal(f"growth up to {casing.growth_speeds[-1]:g} rad/s", allowed, *path, "casing_growth")
         if casing.centrifugal and matrices:
             value = f"true, as without the key, with the blade '{matrices[0]}', given by matrices: its load is not known"
             allowed = "false, with the blade's growth taken off in casing_growth, in a scene of its own"
-            raise document.refusal((*path, "centrifugal"), value, allowed)
+            raise document.refusal(value, allowed, *path, "centrifugal")
 
 
 CHECKS: tuple[Callable[[Settings], None], ...] = (

@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Iterable
 from dataclasses import MISSING, fields
 from functools import cache
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
 from pydantic import Field, create_model
 
@@ -57,54 +57,38 @@ def si_form(kind: type[T], section: Section, **parts: Any) -> T:
     A field has the value of a key that it declares or, without a declaration, of one that is called like it. What is left out
     has the dataclass's default, or is None.
     """
-    values: dict[str, Any] = {}
-    for field, is_none, keys in _keys_by_field(kind):  # type: ignore[arg-type]
-        if field in parts:
-            continue
-        if is_none:
-            values[field] = None
-        for name, key in keys.items():
-            value = getattr(section, name, None)
-            if value is not None and value != (key.none or None):
-                values[field] = key.words[value] if key.words else _made(value, key.factor)
+    keys = _keys_of_all_fields(kind)  # type: ignore[arg-type]
+    values: dict[str, Any] = {each.field: None for each in keys if each.default is MISSING}
+    for each in keys:
+        value, key = getattr(section, each.name, None), each.key
+        if each.field not in parts and value is not None and value != (key.none or None):
+            values[each.field] = key.words[value] if key.words else si_value(value, key.factor)
     return kind(**values | parts)
 
 
-def _made(value: Any, factor: float | None) -> Any:
-    """A value as a field has it, with the dataclasses of sections in their place."""
-    if isinstance(value, list):
-        return tuple(_made(entry, factor) for entry in value)
-    return si(value) if isinstance(value, Section) and value.declares else si_value(value, factor)
-
-
 @cache
-def _keys_by_field(kind: Any) -> list[tuple[str, bool, dict[str, Key]]]:
-    """Fields of a dataclass, each with whether it is None where it is left out, and its keys by name."""
-    hints, by_field = get_type_hints(kind), []
-    for field in fields(kind):
-        keys = {declared.name: declared.key for declared in declared_keys(kind) if declared.field == field.name}
-        has_default = field.default is not MISSING or field.default_factory is not MISSING
-        is_none = not has_default and NoneType in get_args(hints[field.name])
-        by_field.append((field.name, is_none, keys or {field.name: Key("")}))
-    return by_field
+def _keys_of_all_fields(kind: Any) -> list[DeclaredKey]:
+    """Keys of a dataclass: a field that declares none has the one that is called like it."""
+    declared = declared_keys(kind)
+    others = [field for field in fields(kind) if field.name not in {key.field for key in declared}]
+    return [*declared, *(DeclaredKey(field.name, field.name, Key(""), field.type, field.default) for field in others)]
 
 
 def _field(declared: DeclaredKey, optional: bool, default: Any) -> tuple[Any, Any]:
     """Type and field of a model for a key."""
     key, default = declared.key, _default(declared) if default is MISSING else default
+    # three dots stand for a key that is required
+    if optional or (default is ... and key.optional):
+        default = None
     kind = _file_type(key, declared.kind)
-    if default is MISSING and not (optional or key.optional):
-        return kind, Field(description=key.description)
-    if default is MISSING or default is None or optional:
-        return kind | LeftOut, Field(default=None, description=key.description)
-    return kind, Field(default=default, description=key.description)
+    return kind | LeftOut if default is None else kind, Field(default=default, description=key.description)
 
 
 def _default(declared: DeclaredKey) -> Any:
-    """The default in the key's unit; None where a key that is left out says the same, as with no bound."""
+    """The default in the key's unit; None where a key that is left out says the same, as with no bound; `...` without one."""
     default, key = declared.default, declared.key
     if default is MISSING:
-        return MISSING
+        return ...
     if default is None or (isinstance(default, float) and math.isinf(default)):
         return key.none or None
     if key.words:
@@ -149,7 +133,9 @@ def si_fields(section: Iterable[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def si_value(value: Any, factor: float | None) -> Any:
-    """A value of a key whose unit is `factor` in the SI, as fields have it: a list as a tuple."""
+    """A value of a key whose unit is `factor` in the SI, as fields have it: lists as tuples, sections as their dataclasses."""
     if isinstance(value, list):
         return tuple(si_value(entry, factor) for entry in value)
+    if isinstance(value, Section) and value.declares:
+        return si(value)
     return value * factor if factor is not None and isinstance(value, int | float) else value

@@ -88,45 +88,41 @@ class Document:
         except errors as error:
             raise self.error(path, f"{before}{error}") from None
 
-    def refusal(self, path: KeyPath, value: str, allowed: str) -> ConfigError:
+    def refusal(self, value: str, allowed: str, *path: str | int) -> ConfigError:
         """The error of the value at `path`, with what was found and what is allowed."""
         return self.error(path, f"found {value}; allowed: {allowed}")
+
+    def known(self, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Self) -> None:
+        """ConfigError for a name, at `path` of this document, that is none of the `entries` of `file`."""
+        allowed = list(entries)
+        for name in names:
+            if name not in allowed:
+                meant = did_you_mean(name, allowed)
+                raise self.refusal(f"'{name}'", f"{', '.join(allowed)} ({file.name}){meant}", *path)
 
     def check(self, model: type[Model]) -> Model:
         """The content as a model; ConfigError for all that the model does not allow, in a base for the base alone."""
         try:
             return model.model_validate(self.content)
         except ValidationError as error:
-            explained = explain_all(error, self.content, model)
+            explained = explain_all(error, self.content, model, self._starts_from_another)
         texts = {path: text for path, _, text in explained}
         places = {path: (*self._place(path)[:1], *path[1:]) for path in texts}
-        own = [each for each in explained if places[each[0]] == each[0] or texts.get(places[each[0]]) != each[2]]
+        # what starts from a base may have a remedy at its end
+        of_base = {path: texts.get(places[path], "nothing") for path in texts if places[path] != path}
+        own = [each for each in explained if each[0] not in of_base or not each[2].startswith(of_base[each[0]])]
         ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in own)).tell()
         raise AssertionError("a model refuses for a reason")
+
+    def _starts_from_another(self, path: KeyPath) -> bool:
+        """True if the entry at the beginning of a path has a base, or changes of a call on top of the file."""
+        return path[0] in self.sources or self.location(path[:1]).startswith(("r37.blade(", "r37.scene("))
 
     def overlaid(self, above: Self) -> Self:
         """Document with the values of another one on top: mappings are joined, all else is replaced."""
         locations = dict(self.locations)
         content = _overlay(self.content, above.content, (), locations)
         return replace(self, content=content, locations=locations | dict(above.locations), sources={})
-
-
-@dataclass(frozen=True)
-class Documents:
-    """The files that a message may have to point into; that of the blades has designs in place of families."""
-
-    config: Document
-    blades: Document
-    levels: Document
-    scenes: Document
-
-    def known(self, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
-        """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
-        allowed = list(entries)
-        for name in names:
-            if name not in allowed:
-                meant = did_you_mean(name, allowed)
-                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name}){meant}")
 
 
 def read_document(root: Path, name: str) -> Document:
@@ -206,7 +202,7 @@ def chain_of_bases(
             others = [single_line(entry) for entry in known if entry not in (chain[0], *circle)]
             hint = ", in no circle of bases" if circle else did_you_mean(base, others)
             raise document.refusal(
-                (chain[0], "base"), f"'{base}'", f"another {kind} of this file, no family ({', '.join(others)}){hint}"
+                f"'{base}'", f"another {kind} of this file, no family ({', '.join(others)}){hint}", chain[0], "base"
             )
         chain.insert(0, base)
     return chain

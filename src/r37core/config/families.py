@@ -8,16 +8,14 @@ from typing import Any, Generic, TypeVar
 
 from pydantic_core import PydanticCustomError
 
-from r37core.base.io import TextFileError
 from r37core.base.speeds import exact_text
 from r37core.base.varied_number import BLADE, SCENE, numbers_in
-from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import read_designs
 
 from .blade_kind import BladeKind
 from .blades import BladeEntry, readable_table
-from .changed_numbers import ImpossibleValueError, entry_with
-from .document import ConfigError, Document
+from .changed_numbers import ImpossibleValueError, entry_with, kind_of
+from .document import Document
 from .messages import did_you_mean, single_line
 from .named_files import named_file
 from .scenes import SceneEntry
@@ -33,16 +31,8 @@ _KINDS: dict[type[Section], str] = {BladeEntry: BLADE, SceneEntry: SCENE}
 """Entries of the two files, and what they are called."""
 
 
-@dataclass(frozen=True)
-class Family:
-    """Designs that differ in some `keys`, dotted as in `vary`. `designs`: blade or scene -> values, one for each key."""
-
-    keys: tuple[str, ...]
-    designs: dict[str, tuple[float, ...]]
-
-    def values(self, design: str) -> dict[str, float]:
-        """Key -> value of a design."""
-        return dict(zip(self.keys, self.designs[design], strict=True))
+Family = dict[str, dict[str, float]]
+"""Designs of a family: name -> values by the keys that vary, dotted as in `vary`, of all designs the same keys."""
 
 
 @dataclass(frozen=True)
@@ -64,19 +54,20 @@ class Designs(Generic[E]):
     @property
     def family_of(self) -> dict[str, str]:
         """Design -> family."""
-        return {design: name for name, family in self.families.items() for design in family.designs}
+        return {design: name for name, family in self.families.items() for design in family}
 
     def families_of(self, names: Iterable[str]) -> dict[str, Family]:
         """Families with those of their designs that are among these names, where there are some."""
-        there, families = set(names), {}
-        for name, family in self.families.items():
-            if designs := {design: values for design, values in family.designs.items() if design in there}:
-                families[name] = replace(family, designs=designs)
-        return families
+        there = set(names)
+        families = {
+            name: {design: values for design, values in family.items() if design in there}
+            for name, family in self.families.items()
+        }
+        return {name: family for name, family in families.items() if family}
 
     def named(self, names: Iterable[str]) -> list[str]:
         """Entries of these names, and designs of families of these names, each once."""
-        several = [list(self.families[name].designs) if name in self.families else [name] for name in names]
+        several = [self.families.get(name, [name]) for name in names]
         return list(dict.fromkeys(name for names in several for name in names))
 
     def locations_of_keys(self, blade: str) -> dict[str, str]:
@@ -96,11 +87,11 @@ def expanded_families(entries: Mapping[str, E], root: Path, document: Document) 
             made[name] = entry
             continue
         families[name] = family = _family(name, entry, root, document)
-        for design in family.designs:
+        for design, values in family.items():
             if design in entries or design in made:
-                allowed = f"designs that are not named like another {_kind(entry)}"
-                raise document.refusal((name,), f"the design '{design}'", allowed)
-            made[design] = design_entry(name, entry, family.values(design), design, document)
+                allowed = f"designs that are not named like another {kind_of(entry)}"
+                raise document.refusal(f"the design '{design}'", allowed, name)
+            made[design] = design_entry(name, entry, values, design, document)
     designs = Designs(made, families, document)
     _check_names(designs)
     return replace(designs, document=replace(document, sources={**document.sources, **designs.family_of}))
@@ -118,39 +109,32 @@ def _check_names(designs: Designs[E]) -> None:
         raise designs.document.error((family_of.get(blamed, blamed),), str(error)) from None
 
 
-def _kind(entry: Any) -> str:
-    return SCENE if isinstance(entry, SceneEntry) else BLADE
-
-
 def _family(name: str, entry: Any, root: Path, document: Document) -> Family:
     if entry.designs is not None:
         file = named_file(entry.designs, root / document.name, root)
-        with readable_table(file, (name, "designs"), document):
-            try:
-                keys, table_designs = read_designs(root / file, _kind(entry))
-            except (TextFileError, BladeShapeError) as error:
-                raise ConfigError(f"{file}: family {name}: {error}") from None
-        _check_size(table_designs, name, "designs", document)
-        return Family(keys, table_designs)
+        with readable_table(file, (name, "designs"), document, "family"):
+            designs = read_designs(root / file, kind_of(entry))
+        _check_size(designs, name, "designs", document)
+        return designs
     values = {key: way.values() if isinstance(way, Variation) else list(map(float, way)) for key, way in entry.vary.items()}
     if entry.combine == "pairs":
         lengths = {key: len(several) for key, several in values.items()}
         if len(set(lengths.values())) > 1:
             counted = ", ".join(f"{key} {length}" for key, length in lengths.items())
-            raise document.refusal((name, "vary"), f"{counted} values", "as many of each key, with combine: pairs")
+            raise document.refusal(f"{counted} values", "as many of each key, with combine: pairs", name, "vary")
         rows = list(zip(*values.values(), strict=True))
     else:
         rows = list(product(*values.values()))
     _check_size(rows, name, "vary", document)
-    designs = {design_name(name, row): tuple(row) for row in rows}
+    designs = {design_name(name, row): dict(zip(values, row, strict=True)) for row in rows}
     if len(designs) < len(rows):
-        raise document.refusal((name, "vary"), "the same values twice", "designs that differ")
-    return Family(tuple(values), designs)
+        raise document.refusal("the same values twice", "designs that differ", name, "vary")
+    return designs
 
 
 def _check_size(designs: Sized, family: str, key: str, document: Document) -> None:
     if len(designs) > LARGEST_FAMILY:
-        raise document.refusal((family, key), f"{len(designs)} designs", f"at most {LARGEST_FAMILY}")
+        raise document.refusal(f"{len(designs)} designs", f"at most {LARGEST_FAMILY}", family, key)
 
 
 def design_name(family: str, values: Sequence[float]) -> str:
@@ -179,7 +163,7 @@ def _check_varies(key: str, family: str, entry: Any, design: str, document: Docu
         return
     hint = did_you_mean(key, known)
     for model, kind in _KINDS.items():
-        if first in model.model_fields and kind != _kind(entry):
+        if first in model.model_fields and kind != kind_of(entry):
             search = f", in a search as scene.{key}" if model is SceneEntry else ""
             hint = f" (a number of a {kind} varies in {kind}s.yaml{search})"
     reason = f"design {design}: found {'' if first in keys else 'unknown key '}{single_line(key)}"

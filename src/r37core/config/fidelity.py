@@ -10,8 +10,8 @@ from r37core.rom.reduction_choice import ReductionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .declaring import declared_by, section_of, si_form
-from .document import Documents
-from .section import ByName, LeftOut, Section, Speed, left_out, refused
+from .document import Document
+from .section import ByName, LeftOut, Section, Speed, left_out, option, refused
 
 _LARGEST_SIGNAL = 2**31
 """Bytes of tip motion that one run may keep in memory."""
@@ -20,12 +20,10 @@ _LARGEST_SIGNAL = 2**31
 class Mesh(Section):
     """Size and quality of the mesh."""
 
-    nodes: int = Field(ge=500, le=500_000, description="Target number of nodes")
-    layers: int = Field(default=1, ge=1, le=8, description="Wedges through the thickness")
-    tip_elements: int = Field(ge=2, le=500, description="Wedges along the tip")
-    minimum_scaled_jacobian: float = Field(
-        default=0.1, ge=1e-6, le=1, description="Smallest scaled Jacobian of an accepted mesh"
-    )
+    nodes: int = option("Target number of nodes", ge=500, le=500_000)
+    layers: int = option("Wedges through the thickness", 1, ge=1, le=8)
+    tip_elements: int = option("Wedges along the tip", ge=2, le=500)
+    minimum_scaled_jacobian: float = option("Smallest scaled Jacobian of an accepted mesh", 0.1, ge=1e-6, le=1)
 
 
 Reduction: Any = section_of(ReductionChoice, "Size of the reduced model.", only=("fixed_interface_modes", "basis_tolerance"))
@@ -40,10 +38,10 @@ class Measured(Section):
 
     error: Error | LeftOut = left_out("Mean relative error of rms, except with bare casing on points; auto needs it")
     error_on_points: Error | LeftOut = left_out("Mean relative error of rms with bare casing on points")
-    error_of_blades: dict[str, Error] = Field(
-        default={}, description="Error of some blades by name, in place of the others, for verdicts and rankings"
+    error_of_blades: dict[str, Error] = option(
+        "Error of some blades by name, in place of the others, for verdicts and rankings", {}
     )
-    cpu_s_per_run: float = Field(ge=1e-6, le=1e9, description="CPU seconds per run")
+    cpu_s_per_run: float = option("CPU seconds per run", ge=1e-6, le=1e9)
 
     def error_of(self, point_contact: bool, blade: str = "") -> float | None:
         """The error of runs with direct contact on points, or of others, or of a blade; None where that was not measured."""
@@ -58,8 +56,8 @@ TimeStep = Annotated[float, Field(ge=1e-12, le=1e-2)]
 class Steps(Section):
     """Largest steps of the scenes with an abradable lining and of those with bare casing."""
 
-    lined: TimeStep = Field(description="Step with an abradable lining")
-    direct: TimeStep = Field(description="Step with bare casing")
+    lined: TimeStep = option("Step with an abradable lining")
+    direct: TimeStep = option("Step with bare casing")
 
 
 @declared_by(IntegrationChoice)
@@ -72,20 +70,18 @@ class TimeIntegration(Section):
     largest_time_step_s: Steps | LeftOut = left_out(
         "Largest steps by kind of scene, in place of time_step_s; an unstable one is shortened"
     )
-    speed_step_rad_s: Speed = Field(description="Step of speed ranges without one")
-    stress_instants: int = Field(default=62, ge=1, le=10000, description="Stress evaluations per revolution")
-    samples_per_stress_instant: int = Field(
-        default=8, ge=1, le=10000, description="Samples of the tip motion per stress evaluation"
-    )
-    spectrum_highest_order: int = Field(default=30, ge=1, le=10000, description="Highest engine order of the kept spectrum")
-    wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="Angles of the kept wear profile")
+    speed_step_rad_s: Speed = option("Step of speed ranges without one")
+    stress_instants: int = option("Stress evaluations per revolution", 62, ge=1, le=10000)
+    samples_per_stress_instant: int = option("Samples of the tip motion per stress evaluation", 8, ge=1, le=10000)
+    spectrum_highest_order: int = option("Highest engine order of the kept spectrum", 30, ge=1, le=10000)
+    wear_angles: int = option("Angles of the kept wear profile", 1000, ge=8, le=1_000_000)
 
     def _check(self) -> None:
         size = 32 * self.revolutions * self.samples_per_revolution
         if size > _LARGEST_SIGNAL:
             value = f"{self.revolutions} of {self.samples_per_revolution} samples, {size / 2**30:.1f} GiB"
             samples = "stress_instants times samples_per_stress_instant are the samples"
-            raise refused(("revolutions",), value, f"at most {_LARGEST_SIGNAL / 2**30:g} GiB ({samples})")
+            raise refused(value, f"at most {_LARGEST_SIGNAL / 2**30:g} GiB ({samples})", "revolutions")
 
     @property
     def samples_per_revolution(self) -> int:
@@ -133,20 +129,25 @@ class Levels(RootModel[ByName[Level]]):
     @model_validator(mode="after")
     def _auto_is_no_level(self) -> Self:
         if "auto" in self.root:
-            raise refused(("auto",), "the level 'auto'", "another name; fidelity: auto picks a level")
+            raise refused("the level 'auto'", "another name; fidelity: auto picks a level", "auto")
         return self
 
 
-def cheapest_level(levels: Mapping[str, Level], tolerance: float, point_contact: bool, documents: Documents) -> str:
-    """The cheapest level within the tolerance, for contact `point_contact` or not; ConfigError where there is none."""
+def cheapest_level(
+    levels: Mapping[str, Level], tolerance: float, point_contact: bool, config: Document, document: Document
+) -> str:
+    """The cheapest level within the tolerance, for contact `point_contact` or not, of the file `document`.
+
+    Raises ConfigError, at the tolerance of `config`, where there is none.
+    """
     measured = {name: level.measured for name, level in levels.items() if level.measured}
     errors = {name: error for name, measure in measured.items() if (error := measure.error_of(point_contact)) is not None}
     fitting = [level for level, error in errors.items() if error <= tolerance]
     if not fitting:
         known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
-        raise documents.config.error(
+        raise config.error(
             ("tolerance",),
-            f"found {tolerance:g}; measured errors of the levels in {documents.levels.name}: {known}; "
+            f"found {tolerance:g}; measured errors of the levels in {document.name}: {known}; "
             "accept more, or name a level under fidelity"
             + (", or take structure.boundary.contact: patches" if point_contact else ""),
         )

@@ -1,7 +1,7 @@
 """Messages from pydantic's errors: the key, what was found and what is allowed."""
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import cache, reduce
 from operator import getitem
 from typing import Any
@@ -26,10 +26,13 @@ _BOUNDS = {
 }
 
 
-def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) -> list[tuple[KeyPath, KeyPath, str]]:
+def explain_all(
+    error: ValidationError, content: Any, model: type[BaseModel], inherits: Callable[[KeyPath], bool] = lambda path: False
+) -> list[tuple[KeyPath, KeyPath, str]]:
     """Place, key and message of all errors, one of each value, unknown keys first.
 
-    A missing key beside an unknown one is not reported, because the unknown one may be meant for it.
+    A missing key beside an unknown one is not reported, because the unknown one may be meant for it. `inherits`: whether the
+    entry with the value at a path starts from another one.
     """
     errors = sorted(error.errors(include_url=False), key=lambda refusal: refusal["type"] != "extra_forbidden")
     unknown = {refusal["loc"][:-1] for refusal in errors if refusal["type"] == "extra_forbidden"}
@@ -43,24 +46,26 @@ def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) ->
         above = [path[:length] for length in range(len(path) + 1)]
         if not is_implied and path not in holding and explained.keys().isdisjoint(above):
             holding.update(above)
-            explained[path] = _explained(refusal, path, content, model)
+            place, key, text = _explained(refusal, path, content, model)
+            remedy = "; null (None in Python) leaves out an inherited one"
+            explained[path] = place, key, text + remedy * (refusal["type"] == "several" and inherits(path))
     return list(explained.values())
 
 
 def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: type[BaseModel]) -> tuple[KeyPath, KeyPath, str]:
-    schema, variants, context = _schema(model), frozenset(map(str, error["loc"])), error.get("ctx", {})
-    if error["type"] == "refused":
+    schema, variants, context = _schema(model), set(map(str, error["loc"])), error.get("ctx", {})
+    if "found" in context:
         return path, path, f"found {single_line(context['found'])}; allowed: {context['allowed']}"
     if error["type"] in ("missing", "extra_forbidden"):
         *parent, key = path
-        known = _keys(_part_at(schema, tuple(parent), schema, variants), schema)
+        known = _keys(_part_at(schema, parent, variants))
         if error["type"] == "missing":
             return tuple(parent), tuple(parent), f"missing key {key}; allowed keys: {', '.join(known)}"
         text = f"found unknown key {single_line(str(key))}; allowed keys: {', '.join(known)}{did_you_mean(str(key), known)}"
         return path, tuple(parent), text
     value = reduce(getitem, path, content)
     shown = "nothing" if value in (None, Without.KEY) else single_line(repr(value))
-    return path, path, f"found {shown}; allowed: {describe(_part_at(schema, path, schema, variants), schema) or error['msg']}"
+    return path, path, f"found {shown}; allowed: {describe(_part_at(schema, path, variants)) or error['msg']}"
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
@@ -79,15 +84,25 @@ def single_line(text: str) -> str:
 
 
 @cache
-def _schema(model: type[BaseModel]) -> dict[str, Any]:
-    return model.model_json_schema()
+def _schema(model: type[BaseModel]) -> Any:
+    """JSON schema of a model, with parts in place of references to them."""
+    schema = model.model_json_schema()
+    return _expanded(schema, schema.pop("$defs", {}))
 
 
-def describe(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
+def _expanded(part: Any, parts: Mapping[str, Any]) -> Any:
+    if isinstance(part, list):
+        return [_expanded(inner, parts) for inner in part]
+    if not isinstance(part, dict):
+        return part
+    content = parts[part["$ref"].rsplit("/", 1)[1]] if "$ref" in part else part
+    return {key: _expanded(inner, parts) for key, inner in content.items()}
+
+
+def describe(part: Mapping[str, Any]) -> str:
     """Allowed values of a part of a JSON schema, in words."""
-    part = _resolved(part, schema)
-    if choices := _choices(part, schema):
-        return " or ".join(describe(choice, schema) for choice in choices)
+    if choices := _choices(part):
+        return " or ".join(map(describe, choices))
     if "const" in part:
         return str(part["const"])
     if "enum" in part:
@@ -96,13 +111,12 @@ def describe(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
     bounds = {bound: part[name] for name, bound in _BOUNDS.items() if name in part}
     words += [f"{bound} {value:g}" if isinstance(value, float) else f"{bound} {value}" for bound, value in bounds.items()]
     if part.get("type") == "array" and "items" in part:
-        inner = _resolved(part["items"], schema)
-        words[0] = f"list of {describe(inner, schema) if 'properties' in inner else inner.get('type', 'values')}"
+        inner = part["items"]
+        words[0] = f"list of {describe(inner) if 'properties' in inner else inner.get('type', 'values')}"
     if "properties" in part:
         words[0] = f"mapping with the keys {', '.join(part['properties'])}"
     elif named := [*part.get("patternProperties", {}).values(), part.get("additionalProperties")][0]:
-        several = {"anyOf", "oneOf"} & _resolved(named, schema).keys()
-        words = ["mapping of names", *words[1:], *([] if several else [f"each with {describe(named, schema)}"])]
+        words = ["mapping of names", *words[1:], *([] if _choices(named) else [f"each with {describe(named)}"])]
     return ", ".join(words)
 
 
@@ -120,40 +134,32 @@ def _within(content: Any, location: Iterable[str | int], missing: bool) -> KeyPa
     return (*path, *last)
 
 
-def _resolved(part: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any]:
-    while "$ref" in part:
-        part = schema["$defs"][part["$ref"].rsplit("/", 1)[1]]
-    return part
-
-
-def _keys(part: Mapping[str, Any], schema: Mapping[str, Any]) -> list[str]:
+def _keys(part: Mapping[str, Any]) -> list[str]:
     """Keys of a mapping, or of those among several kinds of values that are one."""
-    return [key for kind in (part, *_choices(part, schema)) for key in kind.get("properties", {})]
+    return [key for kind in (part, *_choices(part)) for key in kind.get("properties", {})]
 
 
-def _choices(part: Mapping[str, Any], schema: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+def _choices(part: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     """The kinds of values that a part allows, where it allows several."""
-    return [_resolved(choice, schema) for choice in (*part.get("anyOf", ()), *part.get("oneOf", ()))]
+    return [*part.get("anyOf", ()), *part.get("oneOf", ())]
 
 
-def _part_at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], variants: frozenset[str]) -> Mapping[str, Any]:
+def _part_at(part: Mapping[str, Any], path: Sequence[str | int], variants: Collection[str]) -> Mapping[str, Any]:
     """The part of a JSON schema that is for the value at `path`; empty where there is none.
 
     Among several models that of a title in `variants` counts, which pydantic has in the place of an error.
     """
-    part = _resolved(part, schema)
-    choices = _choices(part, schema)
+    choices = _choices(part)
     named = [choice for choice in choices if choice.get("title") in variants]
     if named:
-        return _part_at(named[0], path, schema, variants)
+        return _part_at(named[0], path, variants)
     if not path:
         return part
-    for choice in choices:
-        match = _part_at(choice, path, schema, variants)
-        if match:
-            return match
+    matches = (_part_at(choice, path, variants) for choice in choices)
+    if match := next(filter(None, matches), None):
+        return match
     step, *rest = path
     inner = part.get("items") if isinstance(step, int) else part.get("properties", {}).get(step)
     # numbers may be the keys of a table that a call gives
     inner = inner or next(iter(part.get("patternProperties", {}).values()), None) or part.get("additionalProperties")
-    return _part_at(inner, tuple(rest), schema, variants) if isinstance(inner, Mapping) else {}
+    return _part_at(inner, rest, variants) if isinstance(inner, Mapping) else {}

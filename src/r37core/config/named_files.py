@@ -44,18 +44,20 @@ def named_file(name: str, file: Path, root: Path | None = None) -> str:
 
 
 def located_files(content: Any, keys: Iterable[str], file: Path, root: Path | None) -> Any:
-    """The content of `file`, or an entry of it, with the files under some keys as `named_file` has them."""
+    """A section of `file`, or each of a list, with the files under some keys as `named_file` has them; others as they are."""
+    if isinstance(content, list):
+        return [located_files(each, keys, file, root) for each in content]
+    if not isinstance(content, Mapping):
+        return content
     names = {key: content[key] for key in keys if isinstance(content.get(key), str)}
-    return content | {key: named_file(name, file, root) for key, name in names.items() if name.strip() and name.isprintable()}
+    return {
+        **content,
+        **{key: named_file(name, file, root) for key, name in names.items() if name.strip() and name.isprintable()},
+    }
 
 
 def located_in_configuration(content: Mapping[str, Any], file: Path, root: Path | None) -> dict[str, Any]:
     """The content of config.yaml with the files that it and its sections name as `named_file` has them."""
-    located = located_files(content, CONFIG_FILES, file, root)
-    for name, keys in SECTION_FILES.items():
-        section = located.get(name)
-        if isinstance(section, list):
-            located[name] = [located_files(each, keys, file, root) if isinstance(each, Mapping) else each for each in section]
-        elif isinstance(section, Mapping):
-            located[name] = located_files(section, keys, file, root)
-    return located
+    there = SECTION_FILES.keys() & content.keys()
+    sections = {name: located_files(content[name], SECTION_FILES[name], file, root) for name in there}
+    return {**located_files(content, CONFIG_FILES, file, root), **sections}

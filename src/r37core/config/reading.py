@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from r37core.base.varied_number import BLADE, SCENE
+
 from .blade_kind import blade_kinds
 from .blades import blades_model
 from .config_file import Config
@@ -12,8 +14,8 @@ from .document import ConfigError, ConfigRefusals, Document, command_line_docume
 from .families import Designs, expanded_families
 from .fidelity import Level, Levels
 from .named_files import file_keys, located_files, located_in_configuration
-from .scenes import SceneEntry, checked_scenes
-from .settings import Documents, Settings
+from .scenes import Scenes
+from .settings import Settings
 from .speed_section import UNITS
 
 CONFIG_FILE = "config/config.yaml"
@@ -72,13 +74,12 @@ class Reader:
         refusals = ConfigRefusals()
         checked = refusals.of(document.check, self.model)
         files = [self._file(document, key) for key in ("blades_file", "fidelity_file", "scenes_file")]
-        designs = refusals.of(blades_of_file, root, files[0], blades_above)
+        designs = refusals.of(designs_of_file, BLADE, root, files[0], blades_above)
         levels = refusals.of(_levels, root, files[1])
-        scenes = refusals.of(scenes_of_file, root, files[2], scenes_above)
+        scenes = refusals.of(designs_of_file, SCENE, root, files[2], scenes_above)
         refusals.tell()
         assert checked and designs and levels and scenes
-        documents = Documents(document, designs.document, levels[0], scenes.document)
-        settings = Settings(root, documents, checked, designs, levels[1], scenes)
+        settings = Settings(root, document, checked, designs, *levels, scenes)
         for check in self.checks:
             refusals.of(check, settings)
         refusals.tell()
@@ -90,37 +91,43 @@ class Reader:
         return named if isinstance(named, str) and named.isprintable() else self.model.model_fields[key].default
 
 
-def _levels(root: Path, name: str) -> tuple[Document, dict[str, Level]]:
+def _levels(root: Path, name: str) -> tuple[dict[str, Level], Document]:
     document = read_document(root, name)
-    return document, document.check(Levels).root
+    return document.check(Levels).root, document
 
 
-def blades_document(root: Path, name: str, above: Document | None = None) -> Document:
-    """The file of blades `name`, with changes `above`, and files of entries as seen from `root`. Raises ConfigError."""
-    document = read_document(root, name)
-    document, refusals = completed(document.overlaid(above) if above else document, None, "blade", blade_kinds())
+def entry_document(kind: str, root: Path, name: str, above: Document | None = None) -> tuple[Document, ConfigRefusals]:
+    """The file `name` of blades or scenes (`kind`), with changes `above`: entries with what their bases give them.
+
+    Files that blades name are seen from `root`. Also the refusals of bases that are not there; entries with these are left out.
+    """
+    document, refusals = completed(read_document(root, name), above, kind, blade_kinds() if kind == BLADE else ("base",))
+    if kind == BLADE and (entries := entries_of(document)):
+        located = {key: located_files(entry, file_keys(entry), root / name, root) for key, entry in entries.items()}
+        document = replace(document, content={**document.content, **located})
+    return document, refusals
+
+
+def designs_of_file(kind: str, root: Path, name: str, above: Document | None = None) -> Designs[Any]:
+    """Blades or scenes (`kind`) of the file `name`, which starts from the folder `root`, with changes `above`.
+
+    Raises ConfigError for all that is wrong.
+    """
+    document, refusals = entry_document(kind, root, name, above)
+    if not document.content:
+        # all entries have bases that are refused
+        refusals.tell()
+    checked = refusals.of(document.check, {BLADE: blades_model(), SCENE: Scenes}[kind])
     refusals.tell()
-    located = {key: located_files(entry, file_keys(entry), root / name, root) for key, entry in entries_of(document).items()}
-    return replace(document, content={**document.content, **located} if located else document.content)
-
-
-def blades_of_file(root: Path, name: str, above: Document | None = None) -> Designs[Any]:
-    """Blades of the file `name`, whose name starts from the folder `root`, with changes `above`. Raises ConfigError."""
-    document = blades_document(root, name, above)
-    return expanded_families(document.check(blades_model()).root, root, document)
-
-
-def scenes_of_file(root: Path, name: str, above: Document | None = None) -> Designs[SceneEntry]:
-    """Scenes of the file `name`, whose name starts from the folder `root`, with changes `above`. Raises ConfigError."""
-    document, entries = checked_scenes(read_document(root, name), above)
-    return expanded_families(entries, root, document)
+    assert checked
+    return expanded_families(checked.root, root, document)
 
 
 def configuration_file(folder: Path, name: str, root: Path | None = None) -> Document:
     """A file with keys of config.yaml, and the files that it names as seen from `root`, or absolute. Raises ConfigError."""
     document = read_document(folder, name)
     if not isinstance(document.content, dict):
-        raise document.refusal((), repr(document.content)[:60], "keys and values, as in config/config.yaml")
+        raise document.refusal(repr(document.content)[:60], "keys and values, as in config/config.yaml")
     return replace(document, content=located_in_configuration(document.content, folder / name, root))
 
 

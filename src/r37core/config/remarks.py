@@ -1,6 +1,6 @@
 """Remarks of the pipeline before a run starts, and at its end."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
@@ -13,43 +13,42 @@ LARGE_FRICTION = 0.2
 """Coefficient up to which the two integrators agree within 2% on average, in direct contact on patches, at settled speeds."""
 
 
-def remarks_of_pipeline(settings: Settings) -> list[str]:
+def remarks_of_pipeline(settings: Settings) -> Iterator[str]:
     """Remarks of the pipeline before a run starts."""
-    lines = []
     measured = settings.fidelity.measured
     if settings.config.fidelity == "auto" and measured is not None:
         error = measured.error_of(bool(direct_on_points(settings)[0]))
         if error is not None:
             share, cost = 100 * error, measured.cpu_s_per_run
-            lines.append(f"fidelity auto: level {settings.fidelity_name}, measured error {share:g}%, {cost:g} CPU s per run")
-    lines += remarks_on_input(settings)
-    lines += remarks_on_unlike_contact(settings)
-    lines += remarks_on_left_out_modes(elastic_casings(settings))
-    return lines
+            yield f"fidelity auto: level {settings.fidelity_name}, measured error {share:g}%, {cost:g} CPU s per run"
+    yield from remarks_on_input(settings)
+    yield from remarks_on_unlike_contact(settings)
+    yield from remarks_on_left_out_modes(elastic_casings(settings))
 
 
-def remarks_on_input(settings: Settings, changed: Collection[str] = ()) -> list[str]:
+def remarks_on_input(settings: Settings, changed: Collection[str] = ()) -> Iterator[str]:
     """Remarks on speeds, materials, contact laws and casings before any run, of the workflow or of a call.
 
     `changed`: scenes whose clearance a call has changed.
     """
-    lines = [*remarks_on_speeds(settings), *remarks_on_blades(settings), *remarks_on_laws(settings)]
-    lines += [*remarks_on_lobes(settings, changed), *remarks_on_linear_variants(settings)]
+    yield from remarks_on_speeds(settings)
+    yield from remarks_on_blades(settings)
+    yield from remarks_on_laws(settings)
+    yield from remarks_on_lobes(settings, changed)
+    yield from remarks_on_linear_variants(settings)
     for scene, casing in elastic_casings(settings).items():
-        lines.append(remark_on_overtaken_waves(scene, casing, fastest_of(settings, scene)))
-    return [line for line in lines if line]
+        yield from remarks_on_overtaken_waves(scene, casing, fastest_of(settings, scene))
 
 
-def remarks_on_speeds(settings: Settings) -> list[str]:
+def remarks_on_speeds(settings: Settings) -> Iterator[str]:
     """Remark on speeds beyond what models are made for."""
     fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
     highest = settings.structure.maximum_speed_rad_s
-    if fastest <= highest:
-        return []
-    return [
-        f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
-        "Campbell diagrams are made for speeds up to that; raise it to what is run"
-    ]
+    if fastest > highest:
+        yield (
+            f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
+            "Campbell diagrams are made for speeds up to that; raise it to what is run"
+        )
 
 
 def remarks_on_blades(settings: Settings) -> list[str]:
@@ -69,48 +68,44 @@ def _first_few(names: Sequence[str]) -> str:
     return f"{', '.join(names[:3])}{', ...' if len(names) > 3 else ''}"
 
 
-def remarks_on_laws(settings: Settings) -> list[str]:
+def remarks_on_laws(settings: Settings) -> Iterator[str]:
     """Remarks on friction under which no integrator is sure, and on a lining that resists with next to nothing."""
-    lines = []
+    patched = [blade for blade in settings.blade_names if settings.contact_of(blade) != POINTS]
     for name, chosen in settings.scenes.items():
-        friction = chosen.scene.friction
+        friction, lining = chosen.scene.friction, chosen.scene.lining
         if friction is not None and not chosen.scene.lined and friction.coefficient > LARGE_FRICTION:
-            lines.append(
+            yield (
                 f"scene '{name}': friction.coefficient is {friction.coefficient:g}; above {LARGE_FRICTION:g} exact_modal and "
                 "central_difference differ in direct contact, at any step, by a fifth and more on some blades; compare "
                 "fidelity standard with paper (docs/accuracy.md#what-chaos-decides)"
             )
-    patched = [blade for blade in settings.blade_names if settings.contact_of(blade) != POINTS]
-    for name, lining in settings.linings.items():
-        if lining.plastic_modulus == 0.0:
-            lines.append(
+        if lining and lining.plastic_modulus == 0.0:
+            yield (
                 f"scene '{name}': lining.plastic_modulus_pa is 0: bars do not harden, and resist with no more than "
                 f"lining.yield_stress_pa, {lining.yield_stress:g} Pa, until they are worn through; where that is little, the "
                 "blade does not move, and numbers of 0 are no result"
             )
-        if lining.published and patched:
-            lines.append(
+        if lining and lining.published and patched:
+            yield (
                 f"scene '{name}': lining.bar_width_m and bar_area_m2 are the published model's: the lining of "
                 f"{_first_few(patched)} depends on structure.boundary.nodes and covers a part of the tip; left out, it covers "
                 "all of it, as in the scene material_abradable"
             )
-    return lines
 
 
-def remarks_on_lobes(settings: Settings, changed: Collection[str] = ()) -> list[str]:
+def remarks_on_lobes(settings: Settings, changed: Collection[str] = ()) -> Iterator[str]:
     """Remark on lobes given in clearances in scenes whose clearance is spread, `changed` by a call, or differs in this run."""
     casings = {name: settings.scene_designs.entries[name].casing for name in settings.scene_names}
     scaled = {name: casing for name, casing in casings.items() if casing.lobes and casing.amplitude_clearances}
     spread, differ = _spread_numbers(settings), len({casing.cold_clearance for casing in scaled.values()}) > 1
     keys = {name: "clearance_m" if casing.clearance is None else "clearance.cold_m" for name, casing in scaled.items()}
     names = [name for name, key in keys.items() if differ or name in changed or f"casing.{key}" in spread]
-    if not names:
-        return []
-    return [
-        f"scene {', '.join(names)}: lobes grow with the clearance, which this run changes or spreads: "
-        "casing.amplitude_clearances gives their height in clearances; casing.amplitude_m holds it "
-        "(docs/clearance_and_lining.md)"
-    ]
+    if names:
+        yield (
+            f"scene {', '.join(names)}: lobes grow with the clearance, which this run changes or spreads: "
+            "casing.amplitude_clearances gives their height in clearances; casing.amplitude_m holds it "
+            "(docs/clearance_and_lining.md)"
+        )
 
 
 def _spread_numbers(settings: Settings) -> set[str]:
@@ -120,7 +115,7 @@ def _spread_numbers(settings: Settings) -> set[str]:
     return {key for section in sections if isinstance(section, Spreads) for key in section.of_scenes}
 
 
-def remarks_on_linear_variants(settings: Settings) -> list[str]:
+def remarks_on_linear_variants(settings: Settings) -> Iterator[str]:
     """Remark on blades that are linear because their base is, where nothing of their own says so."""
     entries = settings.designs.entries
     variants = [
@@ -128,51 +123,50 @@ def remarks_on_linear_variants(settings: Settings) -> list[str]:
         for name in settings.blades
         if settings.kinematics_of(name) == LINEAR and not settings.structure.kinematics and not entries[name].kinematics
     ]
-    if not variants:
-        return []
-    return [
-        f"{_first_few(variants)}: linear, as the base is; large motions and their stress come out too high; for numbers to "
-        f"decide from: structure: {{ kinematics: {QUADRATIC} }} (docs/large_motion.md)"
-    ]
+    if variants:
+        yield (
+            f"{_first_few(variants)}: linear, as the base is; large motions and their stress come out too high; for numbers to "
+            f"decide from: structure: {{ kinematics: {QUADRATIC} }} (docs/large_motion.md)"
+        )
 
 
-def remarks_at_end(settings: Settings) -> list[str]:
+def remarks_at_end(settings: Settings) -> Iterator[str]:
     """Remarks at the end of a run on its contact and on rigid casings without a lining."""
     casings = {name: settings.scene_designs.entries[name] for name in settings.scene_names}
     rigid = [name for name, entry in casings.items() if entry.lining is None and not entry.casing.elastic]
-    remark = (
-        f"{_first_few(rigid)}: the bare casing is rigid; an elastic one took the largest stress of S100 at 1867 rad/s from "
-        "4.33 to 1.87 times yield (docs/accuracy.md#which-modes-the-stress-counts): casing.ring (docs/elastic_casing.md)"
-    )
-    return [*remarks_on_points(settings), *([remark] if rigid else [])]
+    yield from remarks_on_points(settings)
+    if rigid:
+        yield (
+            f"{_first_few(rigid)}: the bare casing is rigid; an elastic one took the largest stress of S100 at 1867 rad/s from "
+            "4.33 to 1.87 times yield (docs/accuracy.md#which-modes-the-stress-counts): casing.ring (docs/elastic_casing.md)"
+        )
 
 
-def remarks_on_points(settings: Settings) -> list[str]:
+def remarks_on_points(settings: Settings) -> Iterator[str]:
     """Remark at the end of a run on direct contact on points, which has no limit in the mesh."""
     scenes, blades = direct_on_points(settings)
-    if not scenes:
-        return []
-    of = f"{len(blades)} blades" if len(blades) > 1 else blades[0]
-    return [
-        f"{', '.join(scenes)}: contact of {of} acts on points, as published, and changes with every finer mesh; for "
-        "numbers to decide from: structure.boundary.contact: patches (docs/accuracy.md#points-and-patches)"
-    ]
+    if scenes:
+        of = f"{len(blades)} blades" if len(blades) > 1 else blades[0]
+        yield (
+            f"{', '.join(scenes)}: contact of {of} acts on points, as published, and changes with every finer mesh; for "
+            "numbers to decide from: structure.boundary.contact: patches (docs/accuracy.md#points-and-patches)"
+        )
 
 
-def remarks_on_unlike_contact(settings: Settings) -> list[str]:
+def remarks_on_unlike_contact(settings: Settings) -> Iterator[str]:
     """Remark on blades with stress whose contact differs, so that their lengths above yield cannot be compared."""
     kinds: dict[str, list[str]] = {}
     for name, contact in contact_of_blades(settings).items():
         if not settings.blades[name].is_matrices:
             kinds.setdefault(contact, []).append(name)
     if len(kinds) < 2:
-        return []
+        return
     different = "; ".join(f"{contact}: {_first_few(names)}" for contact, names in kinds.items())
     kinematics = "" if len({settings.kinematics_of(name) for name in settings.blades}) == 1 else f"kinematics: {QUADRATIC}, "
-    return [
+    yield (
         f"contact differs ({different}): blades are ranked among those of the same contact; "
         f"structure: {{ {kinematics}boundary: {{ contact: patches }} }} gives all blades one order"
-    ]
+    )
 
 
 ENOUGH = 0.95
@@ -187,35 +181,33 @@ def elastic_casings(settings: Settings) -> dict[str, ElasticCasing]:
     return {name: casing.elastic_casing() for name, casing in entries.items() if casing.elastic}
 
 
-def remark_on_overtaken_waves(scene: str, casing: ElasticCasing, fastest: float) -> str:
-    """Remark on a scene with speeds up to `fastest` (rad/s), empty below the casing's lowest critical speed."""
+def remarks_on_overtaken_waves(scene: str, casing: ElasticCasing, fastest: float) -> Iterator[str]:
+    """Remark on a scene with speeds up to `fastest` (rad/s); none below the casing's lowest critical speed."""
     if fastest <= casing.critical_speed:
-        return ""
+        return
     remark = (
         f"scene {scene}: speeds up to {fastest:g} rad/s; above {casing.critical_speed:.4g} the rotor overtakes waves of the "
         "casing, which may then grow without bound"
     )
     unseen = [mode.nodal_diameter for mode in casing.overtaken(fastest) if mode not in casing.modes]
-    if casing.ring is None or not unseen:
-        return remark
-    highest = casing.ring.highest_nodal_diameter
-    return f"{remark}; the simulation does not show those of {unseen[0]} to {unseen[-1]} nodal diameters: {_KEY} is {highest}"
+    if casing.ring is not None and unseen:
+        those = f"those of {unseen[0]} to {unseen[-1]} nodal diameters: {_KEY} is {casing.ring.highest_nodal_diameter}"
+        remark += f"; the simulation does not show {those}"
+    yield remark
 
 
-def remarks_on_left_out_modes(casings: Mapping[str, ElasticCasing]) -> list[str]:
+def remarks_on_left_out_modes(casings: Mapping[str, ElasticCasing]) -> Iterator[str]:
     """Remarks on rings that give way less under a force than with all modes; a ring that scenes share has one."""
     scenes: dict[Ring, list[str]] = {}
     for name, casing in casings.items():
         if casing.ring is not None:
             scenes.setdefault(casing.ring, []).append(name)
-    lines = []
     for ring, names in scenes.items():
         part, whole = flexibility_of(ring.modes()), flexibility(ring)
         if part / whole < ENOUGH:
             needed = nodal_diameters_for(ring, ENOUGH, MOST_NODAL_DIAMETERS) or f"not even {MOST_NODAL_DIAMETERS}"
-            lines.append(
+            yield (
                 f"scene {', '.join(names)}: the modes up to {_KEY} {ring.highest_nodal_diameter} give way {1e6 * part:.3g} "
                 f"um/N at a force that rests, {part / whole:.0%} of what the whole ring does, {1e6 * whole:.3g}; {needed} have "
                 f"{ENOUGH:.0%}"
             )
-    return lines

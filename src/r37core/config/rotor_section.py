@@ -12,7 +12,7 @@ from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Rotor
 
 from .declaring import declared_by
-from .section import LeftOut, Section, Unique, left_out, refused
+from .section import LeftOut, Section, Unique, left_out, option, refused
 from .spread import SpreadEntry
 
 T = TypeVar("T")
@@ -24,18 +24,18 @@ def _number(key: Any) -> str:
     """The number of a blade as text without leading zeros; raises the error of a key that is none."""
     text = str(key).lstrip("0") if isinstance(key, str) or type(key) is int else ""
     if not re.fullmatch("[1-9][0-9]{0,3}", text) or int(text) > MOST_BLADES:
-        raise refused((), f"the key {key!r}", f"the number of a blade, from 1 to {MOST_BLADES}")
+        raise refused(f"the key {key!r}", f"the number of a blade, from 1 to {MOST_BLADES}")
     return text
 
 
 def _number_table(table: Any, checked: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
     """The table as it is checked; raises the error of what is no table, and of two values of a blade."""
     if not isinstance(table, Mapping):
-        raise refused((), repr(table), "a value for each number of a blade, as in {1: 0.4, 2: -0.7}")
+        raise refused(repr(table), "a value for each number of a blade, as in {1: 0.4, 2: -0.7}")
     values = checked(table)
     twice = [number for number, times in Counter(map(_number, table)).items() if times > 1]
     if twice:
-        raise refused((), f"blade {twice[0]} twice", "each blade once")
+        raise refused(f"blade {twice[0]} twice", "each blade once")
     return values
 
 
@@ -62,27 +62,21 @@ Length = Annotated[float, Field(ge=_LENGTHS[0], le=_LENGTHS[1])]
 class RotorSection(Section):
     """Blades that run on one casing and wear one lining; their roots stand still, and nothing else couples them."""
 
-    blades: Number = Field(description="Number of places for blades")
+    blades: Number = option("Number of places for blades")
     missing: Unique[Number] | LeftOut = left_out("Places without a blade, from 1")
-    mistuning_percent: BladeTable[Change] = Field(
-        default={}, description="Frequency change by blade number, -95 to 1000, in place of a drawn one"
-    )
+    mistuning_percent: BladeTable[Change] = option("Frequency change by blade number, -95 to 1000, in place of a drawn one", {})
     mistuning_spread_percent: SpreadEntry | LeftOut = left_out(
         "Drawn frequency changes of the other blades: {normal: 1} has a standard deviation of 1%"
     )
-    longer_m: BladeTable[Length] = Field(
-        default={}, description="Extra length by blade number, -0.1 to 0.1, in place of a drawn one"
-    )
+    longer_m: BladeTable[Length] = option("Extra length by blade number, -0.1 to 0.1, in place of a drawn one", {})
     longer_spread_m: SpreadEntry | LeftOut = left_out(
         "Drawn extra lengths of the other blades: {uniform: 2.0e-5} is plus or minus 20 um"
     )
-    seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the drawn values")
+    seed: int = option("Seed of the drawn values", 0, ge=0, le=2**31)
     angles_deg: list[Annotated[float, Field(ge=-360, le=720)]] | LeftOut = left_out(
         "Angles of all places towards growing theta, at least 0.1 apart; equal spacing without them"
     )
-    lining: Literal["shared", "separate"] = Field(
-        default="shared", description="One abradable lining for all blades (shared), or one for each"
-    )
+    lining: Literal["shared", "separate"] = option("One abradable lining for all blades (shared), or one for each", "shared")
 
     def _check(self) -> None:
         named: list[tuple[KeyPath, int]] = [(("missing",), number) for number in self.missing or ()]
@@ -90,18 +84,18 @@ class RotorSection(Section):
             named += [((key, number), int(number)) for number in getattr(self, key)]
         for path, number in named:
             if number > self.blades:
-                raise refused(path, f"blade {number}", f"1 to {self.blades}, the number of blades")
+                raise refused(f"blade {number}", f"1 to {self.blades}, the number of blades", *path)
         if self.angles_deg is not None and len(self.angles_deg) != self.blades:
-            raise refused(("angles_deg",), f"{len(self.angles_deg)} angles", f"{self.blades}, one for each of the blades")
+            raise refused(f"{len(self.angles_deg)} angles", f"{self.blades}, one for each of the blades", "angles_deg")
         if len(self.missing or ()) == self.blades:
-            raise refused(("missing",), "all blades", "at least one that is there")
+            raise refused("all blades", "at least one that is there", "missing")
         angles, around = self._angles, sorted(self._present, key=lambda number: self._angles[number - 1] % 360.0)
         for before, after in zip(around, [*around[1:], around[0]], strict=True):
             apart = (angles[after - 1] - angles[before - 1]) % 360.0
             if before != after and min(apart, 360.0 - apart) < LEAST_APART:
                 both = f"{angles[after - 1]:g}, and blade {before} at {angles[before - 1]:g}"
                 allowed = f"at least {LEAST_APART:g} degrees between blades that are there"
-                raise refused(("angles_deg", after - 1), both, allowed)
+                raise refused(both, allowed, "angles_deg", after - 1)
         self._refuse_beyond("mistuning_spread_percent", *_CHANGES, self._values("mistuning_percent"))
         self._refuse_beyond("longer_spread_m", *_LENGTHS, self._values("longer_m"))
 
@@ -111,17 +105,17 @@ class RotorSection(Section):
         if entry is None:
             return
         if entry.percent:
-            raise refused((key,), "a spread in percent of the nominal value, which is 0", "uniform, normal, between, values")
+            raise refused("a spread in percent of the nominal value, which is 0", "uniform, normal, between, values", key)
         (kind, numbers), bounds = entry.distribution, f"at least {least:g}, at most {most:g}"
         for number in numbers:
             if kind in ("uniform", "normal") and number > min(-least, most):
-                raise refused((key, kind), f"{number:g}", f"at most {min(-least, most):g}")
+                raise refused(f"{number:g}", f"at most {min(-least, most):g}", key, kind)
             if not least <= number <= most:
-                raise refused((key, kind), f"{number:g}", bounds)
+                raise refused(f"{number:g}", bounds, key, kind)
         for blade, value in zip(self._present, values, strict=True):
             if not least <= value <= most:
                 remedy = f"{bounds}; a narrower spread, a uniform one, or another seed"
-                raise refused((key,), f"{value:.4g} of blade {blade}", remedy)
+                raise refused(f"{value:.4g} of blade {blade}", remedy, key)
 
     @property
     def _present(self) -> list[int]:

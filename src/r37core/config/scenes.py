@@ -9,11 +9,9 @@ from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
 from .casing_section import CasingSection
 from .declaring import declared_by, section_of, si, si_fields
-from .document import ConfigRefusals, Document, completed
 from .rotor_section import RotorSection
-from .section import ByName, LeftOut, Name, Rpm, Section, Speed, check_table, left_out, or_section, refused
-from .speed_section import refuse_both_units
-from .varied import COMBINE, FAMILY_WAYS, Combine, DesignTable, Vary, designs_field, vary_field
+from .section import ByName, EachOnce, LeftOut, Name, Rpm, Section, Speed, check_table, either, left_out, option, refused
+from .varied import FamilyKeys
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
 OF_ONE_BLADE = ("signal", "shapes", "motion_kind")
@@ -30,14 +28,8 @@ Result = Literal[
 class LiningSection(Section):
     """The abradable lining in front of the casing."""
 
-    def _check(self) -> None:
-        published = [key for key in ("bar_width_m", "bar_area_m2") if getattr(self, key) is not None]
-        # the default contact length may be there without being asked for
-        asked = self.contact_length_m != type(self).model_fields["contact_length_m"].default
-        given = [*(["contact_length_m"] if asked else []), *published]
-        if published and len(given) > 1:
-            allowed = f"one of them; {' and '.join(published)} of the published model; null leaves out that of the base"
-            raise refused((given[0],), " and ".join(given), allowed)
+    # of the published model two ways, and the one of a contact length
+    refuse_several = (("bar_width_m", "bar_area_m2", "contact_length_m"),)
 
 
 FrictionSection: Any = section_of(Friction, "Friction at the tip.")
@@ -62,7 +54,7 @@ class DampingRowSection(Section):
     def _check(self) -> None:
         lowest, highest = (self.ratio if bound is None else bound for bound in (self.lowest, self.highest))
         if not lowest <= self.ratio <= highest:
-            raise refused(("ratio",), f"{self.ratio:g} in a range from {lowest:g} to {highest:g}", "lowest <= ratio <= highest")
+            raise refused(f"{self.ratio:g} in a range from {lowest:g} to {highest:g}", "lowest <= ratio <= highest", "ratio")
 
 
 def _check_rows(sections: list[DampingRowSection]) -> list[DampingRowSection]:
@@ -70,22 +62,19 @@ def _check_rows(sections: list[DampingRowSection]) -> list[DampingRowSection]:
     for number, (mode, speed) in enumerate(places):
         others = [other for each, other in places[:number] if each == mode]
         if speed in others or (others and None in (speed, *others)):
-            raise refused((number,), f"mode {mode} in several rows", "each at another speed, by speed_rad_s or speed_rpm")
+            raise refused(f"mode {mode} in several rows", "each at another speed, by speed_rad_s or speed_rpm", number)
     if all(mode for mode, _ in places):
-        raise refused((), "no row of mode 0", "also one, which all other modes have")
+        raise refused("no row of mode 0", "also one, which all other modes have")
     return sections
 
 
 DampingRows = Annotated[list[DampingRowSection], Field(min_length=1), AfterValidator(_check_rows)]
-DampingRatio: Any = or_section(DampingNumber, DampingSection, rows=DampingRows)
+DampingRatio: Any = either(DampingNumber, DampingSection, rows=DampingRows)
 """One number, a law with keys of its own, of which there may be several, or rows."""
 
 
-@declared_by(Scene)
-class SceneEntry(Section):
-    """One scene of scenes.yaml; with `vary` or `designs` a family, many scenes that differ in some numbers."""
-
-    refuse_several = (FAMILY_WAYS,)
+class SceneKeys(Section):
+    """Keys of a scene that are its own: casing, lining, friction, blades, and the results that are kept."""
 
     base: Name | LeftOut = left_out("Scene of this file that gives what is left out; null leaves out a key that it has")
     tip_line: TipLine | LeftOut = left_out("Line of the contact nodes; by default structure.boundary.tip_line")
@@ -93,35 +82,21 @@ class SceneEntry(Section):
     lining: LiningSection | LeftOut = left_out("Abradable lining; the casing is bare without it")
     friction: FrictionSection | LeftOut = left_out("Friction at the tip")
     rotor: RotorSection | LeftOut = left_out("All blades in one casing; a single blade without it")
-    damping_ratio: DampingRatio = Field(
-        default=0.0005, description="Damping ratio; a table over frequency, or by mode and speed"
-    )
+    damping_ratio: DampingRatio = option("Damping ratio; a table over frequency, or by mode and speed", 0.0005)
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = left_out(
         "Revolutions of a run, in place of the fidelity level's"
     )
     until: Literal["revolutions", "settled"] | LeftOut = left_out("End of a run, in place of the fidelity level's")
-    results: list[Result] = Field(
-        default=["spectrum", "stress"],
-        json_schema_extra={"uniqueItems": True},
-        description="Kept results; static_stress adds the stress of rotation, fatigue compares stress with the Goodman line, "
+    results: EachOnce[Result] = option(
+        "Kept results; static_stress adds the stress of rotation, fatigue compares stress with the Goodman line, "
         "casing keeps the waves of an elastic casing, motion_kind says whether the motion is chaotic",
+        ["spectrum", "stress"],
+        json_schema_extra={"uniqueItems": True},
     )
-    stress_history_speeds_rad_s: list[Speed] = Field(
-        default=[], description="Speeds at which the largest stress of every revolution is kept"
-    )
-    stress_history_speeds_rpm: list[Rpm] = Field(default=[], description="The same speeds in revolutions per minute")
-    vary: Vary = vary_field("casing.clearance_m or lining.thickness_m")
-    combine: Combine = COMBINE
-    designs: DesignTable = designs_field("scene")
+    stress_history_speeds_rad_s: EachOnce[Speed] = option("Speeds at which the largest stress of every revolution is kept", [])
+    stress_history_speeds_rpm: EachOnce[Rpm] = option("The same speeds in revolutions per minute", [])
 
     def _check(self) -> None:
-        if all(getattr(self, key) for key in _HISTORIES):
-            refuse_both_units(*_HISTORIES)
-        for key in ("results", *_HISTORIES):
-            values = getattr(self, key)
-            for number, value in enumerate(values):
-                if value in values[:number]:
-                    raise refused((key, number), f"{value} twice", "each once")
         lined, stressed = self.lining is not None, "stress" in self.results
         for results, possible, where in (
             (("wear",), lined, "in a scene with a lining"),
@@ -131,13 +106,13 @@ class SceneEntry(Section):
         ):
             for result in results:
                 if result in self.results and not possible:
-                    raise refused(("results",), result, f"only {where}")
+                    raise refused(result, f"only {where}", "results")
         for key in _HISTORIES:
             if getattr(self, key) and not stressed:
-                raise refused((key,), "speeds", "only with stress among the results")
+                raise refused("speeds", "only with stress among the results", key)
         if self.casing.elastic and self.gap == "exact":
             raise refused(
-                ("gap",), "exact with an elastic casing", "linear; the exact gap is that of a casing that keeps its shape"
+                "exact with an elastic casing", "linear; the exact gap is that of a casing that keeps its shape", "gap"
             )
         if self.rotor is not None:
             self._check_rotor()
@@ -145,9 +120,9 @@ class SceneEntry(Section):
     def _check_rotor(self) -> None:
         refusal = refusal_of(self.scene())
         if refusal:
-            raise refused(("rotor",), "a rotor in this scene", refusal)
+            raise refused("a rotor in this scene", refusal, "rotor")
         if self.until == "settled":
-            raise refused(("until",), "settled with a rotor", NO_ROTOR)
+            raise refused("settled with a rotor", NO_ROTOR, "until")
 
     def scene(self) -> Scene:
         """The scene as the simulations take it."""
@@ -158,20 +133,12 @@ class SceneEntry(Section):
         return si_fields((key, getattr(self, key)) for key in _HISTORIES)["stress_history_speeds"]
 
 
+@declared_by(Scene)
+class SceneEntry(FamilyKeys, SceneKeys):
+    """One scene of scenes.yaml; with `vary` or `designs` a family, many scenes that differ in some numbers."""
+
+    refuse_several = (*FamilyKeys.refuse_several, _HISTORIES)
+
+
 class Scenes(RootModel[ByName[SceneEntry]]):
     """scenes.yaml, contact scenes by name."""
-
-
-def checked_scenes(file: Document, above: Document | None = None) -> tuple[Document, dict[str, SceneEntry]]:
-    """Scenes of a file with changes `above`, each with what its base gives it: content with its lines, and checked.
-
-    Raises ConfigError for all that is wrong.
-    """
-    document, refused_bases = completed(file, above, "scene", ("base",))
-    refusals = ConfigRefusals()
-    # of a file in which all have such bases nothing is left
-    checked = refusals.of(document.check, Scenes) if document.content or not file.content else None
-    refusals.of(refused_bases.tell)
-    refusals.tell()
-    assert checked
-    return document, checked.root

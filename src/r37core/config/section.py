@@ -11,7 +11,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import PydanticCustomError
 
-from r37core.base.yaml_file import KeyPath, scalar
+from r37core.base.yaml_file import scalar
 
 T = TypeVar("T")
 
@@ -35,7 +35,7 @@ class Section(BaseModel):
     """A mapping of a configuration file: only declared keys, no null, no text for a number, nothing infinite.
 
     `declares`: dataclass that declares its keys and is made of it (r37core.config.declaring.si). `one_of`, `refuse_several`:
-    keys of which an entry has exactly one, or at most one.
+    keys of which an entry has exactly one, or at most one, other than its default.
     """
 
     declares: ClassVar[Any] = None
@@ -54,19 +54,18 @@ class Section(BaseModel):
         if isinstance(data, Mapping):
             for key, value in data.items():
                 if value is None and key in cls.model_fields:
-                    raise refused((key,), "nothing", "a value, or the key left out")
+                    raise refused("nothing", "a value, or the key left out", key)
             return {key: value for key, value in data.items() if value is not Without.KEY or key not in cls.model_fields}
         return data
 
     @model_validator(mode="after")
     def _checked(self) -> Self:
         for keys in (*self.one_of, *self.refuse_several):
-            present = [key for key in keys if getattr(self, key) is not None]
+            present = [key for key in keys if getattr(self, key) != type(self).model_fields[key].default]
             if len(present) > 1:
-                allowed = "one of them; null (None in Python) leaves out an inherited one"
-                raise refused((present[1],), " and ".join(present), allowed)
+                raise refused(" and ".join(present), "one of them", present[1], kind="several")
             if not present and keys in self.one_of:
-                raise refused((), f"neither {' nor '.join(keys)}", "one of them")
+                raise refused(f"neither {' nor '.join(keys)}", "one of them")
         self._check()
         return self
 
@@ -83,9 +82,12 @@ def plain(section: BaseModel) -> dict[str, Any]:
     return section.model_dump(exclude_none=True)
 
 
-def refused(at: KeyPath, value: str, allowed: str) -> PydanticCustomError:
-    """The error of a validator that compares several keys; `at` is the one to blame, seen from the validated section."""
-    return PydanticCustomError("refused", "found {found}; allowed: {allowed}", {"at": at, "found": value, "allowed": allowed})
+def refused(value: str, allowed: str, *at: str | int, kind: Literal["refused", "several"] = "refused") -> PydanticCustomError:
+    """The error of a validator that compares several keys; `at`: path of the one to blame, seen from the validated section.
+
+    `kind`: "several" of keys of which one is allowed.
+    """
+    return PydanticCustomError(kind, "found {found}; allowed: {allowed}", {"at": at, "found": value, "allowed": allowed})
 
 
 def check_table(section: Section, places: str, values: str, at_zero: str = "") -> None:
@@ -95,18 +97,18 @@ def check_table(section: Section, places: str, values: str, at_zero: str = "") -
     """
     x, y = getattr(section, places), getattr(section, values)
     if (at_zero and x[0]) or any(after <= before for before, after in pairwise(x)):
-        raise refused((places,), f"{x}", f"ascending numbers{', the first of them 0' if at_zero else ''}")
+        raise refused(f"{x}", f"ascending numbers{', the first of them 0' if at_zero else ''}", places)
     if len(x) != len(y):
-        raise refused((values,), f"{len(y)} numbers for {len(x)} {places}", "one for each")
+        raise refused(f"{len(y)} numbers for {len(x)} {places}", "one for each", values)
     if at_zero and y[0]:
-        raise refused((values, 0), f"{y[0]:g} at the first of {places}", f"0; the clearance there is {at_zero}")
+        raise refused(f"{y[0]:g} at the first of {places}", f"0; the clearance there is {at_zero}", values, 0)
 
 
-def _unique(values: list[T]) -> list[T]:
+def _each_once(values: list[T]) -> list[T]:
     seen: set[T] = set()
     for number, value in enumerate(values):
         if value in seen:
-            raise refused((number,), f"{value!r} twice", "each once")
+            raise refused(f"{value!r} twice", "each once", number)
         seen.add(value)
     return values
 
@@ -119,26 +121,49 @@ def check_name(name: str) -> str:
     """The name itself; the error of one that cannot be part of file names."""
     if not re.fullmatch(NAME_PATTERN, name) or len(name) > 60 or name == "all" or not isinstance(scalar(name), str):
         allowed = "a name of letters, digits, hyphens and single underscores between them, of at most 60 characters, that is"
-        raise refused((), repr(name), f"{allowed} neither 'all' nor a number, true, false or null in YAML")
+        raise refused(repr(name), f"{allowed} neither 'all' nor a number, true, false or null in YAML")
     return name
 
 
 Name = Annotated[str, AfterValidator(check_name), WithJsonSchema({"type": "string", "pattern": NAME_PATTERN, "maxLength": 60})]
 """Name of a blade, scene, level or run: part of file names, where two underscores separate names."""
 
-Unique = Annotated[list[T], Field(min_length=1), AfterValidator(_unique)]
+EachOnce = Annotated[list[T], AfterValidator(_each_once)]
+"""A list with no value twice."""
+
+Unique = Annotated[list[T], Field(min_length=1), AfterValidator(_each_once)]
 """A list with at least one value and none twice."""
 
 Names = Unique[Name]
-AllOrNames = Annotated[
-    Annotated[Literal["all"], Tag("all")] | Annotated[Names, Tag("names")],
-    Discriminator(lambda value: "names" if isinstance(value, list) else "all"),
-]
+
+
+def either(value: Any, *sections: Any, rows: Any = None) -> Any:
+    """Type of a key with a value of the type `value`, one of some sections in its place, or a list of the type `rows`.
+
+    Of several sections a mapping is the one whose keys it has most of.
+    """
+    kinds: Any = Annotated[value, Tag("value")]
+    for tagged in sections:
+        kinds |= Annotated[tagged, Tag(tagged.__name__)]
+    if rows is not None:
+        kinds |= Annotated[rows, Tag("rows")]
+
+    def kind_of(content: Any) -> str:
+        if isinstance(content, dict) and sections:
+            return max(sections, key=lambda section: len(section.model_fields.keys() & content.keys())).__name__
+        if isinstance(content, Section) and sections:
+            return type(content).__name__
+        return "rows" if rows and isinstance(content, list) else "value"
+
+    return Annotated[kinds, Discriminator(kind_of)]
+
+
+AllOrNames: Any = either(Literal["all"], rows=Names)
 
 
 def _printable(name: str) -> str:
     if not name.isprintable():
-        raise refused((), repr(name), "a name without line breaks and other invisible characters")
+        raise refused(repr(name), "a name without line breaks and other invisible characters")
     return name
 
 
@@ -147,9 +172,14 @@ LeftOut = SkipJsonSchema[None]
 """Type of an optional key that is not given; null is refused."""
 
 
+def option(description: str, default: Any = ..., **bounds: Any) -> Any:
+    """The field of a key: its description, its default (none of a key that is required), and bounds as pydantic takes them."""
+    return Field(default=default, description=description, **bounds)
+
+
 def left_out(description: str) -> Any:
     """The field of an optional key without a default."""
-    return Field(default=None, description=description)
+    return option(description, None)
 
 
 Speed = Annotated[float, Field(ge=1e-3, le=1e6)]
@@ -159,36 +189,18 @@ Rpm = Annotated[float, Field(ge=0.01, le=9.5e6)]
 """An angular speed in revolutions per minute."""
 
 
-def or_section(kind: Any, *sections: Any, rows: Any = None) -> Any:
-    """Type of a key with a value of a `kind`, one of some sections in its place, or a list of the type `rows`.
-
-    Of several sections a mapping is the one whose keys it has most of.
-    """
-    kinds: Any = Annotated[kind, Tag("value")]
-    for tagged in sections:
-        kinds |= Annotated[tagged, Tag(tagged.__name__)]
-    if rows is not None:
-        kinds |= Annotated[rows, Tag("rows")]
-
-    def kind_of(value: Any) -> str:
-        if isinstance(value, Section):
-            return type(value).__name__
-        if isinstance(value, dict):
-            return max(sections, key=lambda section: len(section.model_fields.keys() & value.keys())).__name__
-        return "rows" if rows and isinstance(value, list) else "value"
-
-    return Annotated[kinds, Discriminator(kind_of)]
-
-
 def check_names(names: dict[str, T]) -> dict[str, T]:
     """The entries by name; raises the error of two names that differ in capitals only: some systems would have one file."""
     seen: dict[str, str] = {}
     for name in names:
         other = seen.setdefault(name.lower(), name)
         if other != name:
-            raise refused((name,), f"'{name}' beside '{other}'", "names that differ in more than capitals")
+            raise refused(f"'{name}' beside '{other}'", "names that differ in more than capitals", name)
     return names
 
+
+Named = Annotated[dict[Name, T], AfterValidator(check_names)]
+"""Entries by name, of which there may be none."""
 
 ByName = Annotated[dict[Name, T], Field(min_length=1), AfterValidator(check_names)]
 """The content of a file with entries by name."""

@@ -13,17 +13,17 @@ import numpy as np
 from r37core.base.plain import to_plain
 from r37core.base.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.base.yaml_file import KeyPath
-from r37core.contact.scene import Lining, Scene
+from r37core.contact.scene import Scene
 from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice
 from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integration_choice import SECONDS_PER_STEP, IntegrationChoice
 
 from .blade_sections import chosen_regions
-from .blades import BladeSettings, blade_settings, link_with
+from .blades import BladeSettings, blade_settings, chain_of_blades, link_with
 from .config_file import Config, StructureSection
 from .declaring import si, si_form
-from .document import ConfigRefusals, Document, Documents, chain_of_bases
+from .document import ConfigRefusals, Document
 from .families import AnyEntry, Designs
 from .fidelity import Level, cheapest_level
 from .scenes import SceneEntry
@@ -60,15 +60,17 @@ class SceneSettings:
 class Settings:
     """Everything the workflow needs to know; what concerns several files is checked by r37core.config.cross_checks.
 
-    `root`: folder that file names start from; `config`: config.yaml; `designs`, `levels` and `scene_designs`: all that their
-    files have, of which `blades`, `fidelity` and `scenes` are those to run, in order.
+    `root`: folder that file names start from; `config`: config.yaml, and `document`, where its values stand;
+    `designs`, `levels` and `scene_designs`: all that their files have, of which `blades`, `fidelity` and `scenes` are those to
+    run, in order.
     """
 
     root: Path
-    documents: Documents
+    document: Document
     config: Config
     designs: Designs[AnyEntry]
     levels: dict[str, Level]
+    levels_document: Document
     scene_designs: Designs[SceneEntry]
 
     @property
@@ -106,7 +108,7 @@ class Settings:
         for name in self.blade_names:
             base, family = getattr(entries[name], "base", None), family_of.get(name, "")
             known = (base not in blades or blades[base] is not None) and family not in refused_families
-            blades[name] = refusals.of(blade_settings, name, entries, self.root, self.documents.blades) if known else None
+            blades[name] = refusals.of(blade_settings, name, entries, self.root, self.designs.document) if known else None
             if family and blades[name] is None:
                 refused_families.add(family)
         refusals.tell()
@@ -142,9 +144,10 @@ class Settings:
         Raises ConfigError for a name that is not in the file, and where no level is within the tolerance.
         """
         if self.config.fidelity != "auto":
-            self.documents.known(("fidelity",), [self.config.fidelity], self.levels, self.documents.levels)
+            self.document.known(("fidelity",), [self.config.fidelity], self.levels, self.levels_document)
             return self.config.fidelity
-        return cheapest_level(self.levels, self.config.tolerance, bool(direct_on_points(self)[0]), self.documents)
+        on_points = bool(direct_on_points(self)[0])
+        return cheapest_level(self.levels, self.config.tolerance, on_points, self.document, self.levels_document)
 
     @property
     def fidelity(self) -> Level:
@@ -189,11 +192,6 @@ class Settings:
         shared, own = self.structure.stress_regions, self.blades[blade].stress_regions
         return chosen_regions(shared) | {name: region for name, region in own.items() if shared.get(name, region)}
 
-    @property
-    def linings(self) -> dict[str, Lining]:
-        """Lining of each scene that has one."""
-        return {name: chosen.scene.lining for name, chosen in self.scenes.items() if chosen.scene.lining}
-
     def contact_of(self, blade: str) -> str:
         """Contact nodes of a blade: as config.yaml says for all of them, else as its own entry does."""
         return self.structure.boundary.contact or self.blades[blade].contact
@@ -229,14 +227,14 @@ class Settings:
 
 def _planned(settings: Settings, path: KeyPath, section: Config | SpeedRule) -> SpeedPlan:
     """The speeds of a section at `path`, whose ranges have the level's step where they give none. Raises ConfigError."""
-    key, document = key_of_speeds(section), settings.documents.config
+    key, document = key_of_speeds(section), settings.document
     entries = [plain(entry) if isinstance(entry, Section) else entry for entry in getattr(section, key)]
     with document.blamed((*path, key), SpeedError):
         plan = plan_speeds(entries, settings.fidelity.time_integration.speed_step_rad_s, UNITS[key])
     fastest, highest = plan.every_speed()[-1], FARTHEST * settings.structure.maximum_speed_rad_s
     if fastest > highest:
         allowed = f"up to {highest:g} rad/s, {FARTHEST:g} times structure.maximum_speed_rad_s; rpm stand under speeds_rpm"
-        raise document.refusal((*path, key), f"{fastest:g} rad/s", allowed)
+        raise document.refusal(f"{fastest:g} rad/s", allowed, *path, key)
     return plan
 
 
@@ -245,7 +243,7 @@ def _chosen(settings: Settings, key: str, designs: Designs[Any]) -> list[str]:
     chosen = getattr(settings.config, key)
     if chosen == "all":
         return list(designs.entries)
-    settings.documents.known((key,), chosen, designs.names, designs.document)
+    settings.document.known((key,), chosen, designs.names, designs.document)
     return designs.named(chosen)
 
 
@@ -328,10 +326,10 @@ def blades_on_points(settings: Settings) -> list[str]:
 
 def level_errors(settings: Settings, pairs: Sequence[tuple[str, str]]) -> list[float]:
     """Relative error of the level, by mesh and step, of each of some blades and scenes; NaN where it was not measured."""
-    measured, linings, points = settings.fidelity.measured, settings.linings, blades_on_points(settings)
+    measured, points = settings.fidelity.measured, blades_on_points(settings)
     if measured is None:
         return [math.nan] * len(pairs)
-    errors = [measured.error_of(blade in points and scene not in linings, blade) for blade, scene in pairs]
+    errors = [measured.error_of(blade in points and not settings.scenes[scene].scene.lined, blade) for blade, scene in pairs]
     return [math.nan if error is None else error for error in errors]
 
 
@@ -339,11 +337,10 @@ def location_of_contact(settings: Settings, blade: str) -> str:
     """Where stands what a blade's contact acts on, as `file:line: key`."""
     if settings.structure.boundary.contact is None:
         entries, document = settings.designs.entries, settings.designs.document
-        chain = chain_of_bases(blade, lambda link: getattr(entries[link], "base", None), entries, document, "blade")
-        link = link_with("contact", chain, entries)
+        link = link_with("contact", chain_of_blades(blade, entries, document), entries)
         return f"{document.location((link, 'contact'))}: {link}.contact"
     path = ("structure", "boundary", "contact")
-    return f"{settings.documents.config.location(path)}: {'.'.join(path)}"
+    return f"{settings.document.location(path)}: {'.'.join(path)}"
 
 
 def checked_scene(entry: Mapping[str, Any]) -> Scene:

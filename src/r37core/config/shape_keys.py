@@ -1,9 +1,8 @@
 """Keys of blades.yaml that change a shape: sweep, lean, stagger, camber, chord and thickness."""
 
-from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any
 
-from pydantic import Discriminator, Field, Tag, create_model
+from pydantic import Field, create_model
 
 from r37core.base.units import si_name
 from r37core.blade.definition import Shape
@@ -11,8 +10,8 @@ from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_spans
 from r37core.blade.section_changes import SectionChangeError, SpanLaw
 
-from .section import FileName, LeftOut, Section, left_out
-from .varied import FAMILY_WAYS
+from .section import FileName, LeftOut, Section, either, left_out, option
+from .varied import FamilyKeys
 
 SECTION_KEYS = ("stagger_deg", "camber_deg", "chord_percent", "thickness_percent")
 """Keys of the changes of a blade's profiles."""
@@ -30,42 +29,37 @@ class Ends(Section):
     """Values at hub and tip, linear between them."""
 
 
-def _form(law: Any) -> str:
-    if isinstance(law, list | tuple):
-        return "table"
-    return "ends" if isinstance(law, dict | Ends) else "number"
-
-
 def _law(name: str, purpose: str, value: Any, neutral: float) -> Any:
     """Type of a key: a number of the kind `value`, its values at hub and tip, where `neutral` changes nothing, or a table."""
-    end_fields: dict[str, Any] = {
-        end: (value, Field(default=neutral, description=f"Value at the {end}")) for end in ("hub", "tip")
-    }
+    end_fields: dict[str, Any] = {end: (value, option(f"Value at the {end}", neutral)) for end in ("hub", "tip")}
     ends = create_model(f"{name}Ends", __base__=Ends, __doc__=f"{purpose}, linear from hub to tip.", **end_fields)
     row = create_model(
         f"{name}Row",
         __base__=Section,
         __doc__=f"{purpose} at one span.",
         span_percent=Annotated[float, Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")],
-        value=(value, Field(description="Value at this position")),
+        value=(value, option("Value at this position")),
     )
-    forms = Annotated[value, Tag("number")] | Annotated[ends, Tag("ends")]  # type: ignore[valid-type]
-    return Annotated[forms | Annotated[list[row], Field(min_length=2), Tag("table")], Discriminator(_form)]  # type: ignore[valid-type]
+    return either(value, ends, rows=Annotated[list[row], Field(min_length=2)])  # type: ignore[valid-type]
 
 
 Angles: Any = _law("Angle", "An added angle", Annotated[float, Field(ge=-90, le=90)], 0.0)
 Shares: Any = _law("Share", "A share that is kept", Annotated[float, Field(ge=10, le=1000)], 100.0)
 
 
-def section_laws(entry: Section) -> dict[str, SpanLaw]:
-    """Laws of an entry by key, in the SI. Raises SectionChangeError for a table whose spans do not rise from 0 to 100%."""
-    laws = {key: getattr(entry, key) for key in SECTION_KEYS}
-    return {key: span_law(key, law) for key, law in laws.items() if law is not None}
+def changed_shape(shape: Shape, entry: Section) -> Shape:
+    """The shape with the changes of an entry.
+
+    Raises SectionChangeError for impossible profiles, for those that cross, and for a table whose spans do not rise from 0 to
+    100%.
+    """
+    laws = {key: law for key in SECTION_KEYS if (law := getattr(entry, key)) is not None}
+    return shape.changed({si_name(key)[0]: _span_law(law, *si_name(key)) for key, law in laws.items()})
 
 
-def span_law(key: str, law: Any) -> SpanLaw:
-    """A checked value of one of SECTION_KEYS in the SI. Raises as section_laws."""
-    factor = si_name(key)[1] or 1.0
+def _span_law(law: Any, name: str, unit: float | None) -> SpanLaw:
+    """A checked value of one of SECTION_KEYS in the SI. Raises SectionChangeError."""
+    factor = unit or 1.0
     if isinstance(law, Ends):
         return SpanLaw.linear(law.hub * factor, law.tip * factor)
     if not isinstance(law, list):
@@ -74,13 +68,8 @@ def span_law(key: str, law: Any) -> SpanLaw:
     try:
         check_spans(spans)
     except BladeShapeError as error:
-        raise SectionChangeError(str(error), [si_name(key)[0]]) from None
+        raise SectionChangeError(str(error), [name]) from None
     return SpanLaw(spans, tuple(row.value * factor for row in law))
-
-
-def shape_by_laws(shape: Shape, laws: Mapping[str, SpanLaw]) -> Shape:
-    """The shape, changed by laws of SECTION_KEYS. Raises SectionChangeError for impossible profiles and those that cross."""
-    return shape.changed({si_name(key)[0]: law for key, law in laws.items()})
 
 
 def changed_keys(error: SectionChangeError) -> list[str]:
@@ -100,15 +89,15 @@ TableShare = Annotated[float, Field(ge=-1000, le=1000)]
 class SweepLean(Section):
     """One row of sweep and lean."""
 
-    span_percent: float = Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")
-    sweep_cm: float = Field(ge=-100, le=100, description="Sweep, positive downstream")
-    lean_deg: float = Field(gt=-90, lt=90, description="Lean, positive in the direction of rotation")
+    span_percent: float = option("Position from the hub (0) to the tip (100)", ge=0, le=100)
+    sweep_cm: float = option("Sweep, positive downstream", ge=-100, le=100)
+    lean_deg: float = option("Lean, positive in the direction of rotation", gt=-90, lt=90)
 
 
-class ShapeKeys(Section):
+class ShapeKeys(FamilyKeys):
     """Changes of profiles or sections, with at most one way to give sweep and lean."""
 
-    refuse_several: ClassVar[tuple[tuple[str, ...], ...]] = (SHIFTS, FAMILY_WAYS)
+    refuse_several = (SHIFTS, *FamilyKeys.refuse_several)
 
     stacking_table: FileName | LeftOut = left_out("Table (CSV) of sweep and lean with a column `blade`")
     sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = left_out(

@@ -2,9 +2,9 @@
 
 from typing import Annotated, Any, Generic, Literal, TypeVar
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
-from .section import LeftOut, Names, Rpm, Section, Speed, Unique, left_out, or_section, refused
+from .section import LeftOut, Names, Rpm, Section, Speed, Unique, either, left_out, option, refused
 
 UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
@@ -13,14 +13,14 @@ T = TypeVar("T", bound=float)
 
 
 class _Range(Section, Generic[T]):
-    start: T = Field(description="First speed")
-    stop: T = Field(description="Last speed, if the step reaches it")
+    start: T = option("First speed")
+    stop: T = option("Last speed, if the step reaches it")
     step: T | LeftOut = left_out("Step between the speeds; by default the fidelity level's")
     refine_to: T | LeftOut = left_out("Smallest interval of adaptive sampling, a whole part of the step")
 
     def _check(self) -> None:
         if self.stop < self.start:
-            raise refused((), f"a range from {self.start:g} to {self.stop:g}", "stop not below start")
+            raise refused(f"a range from {self.start:g} to {self.stop:g}", "stop not below start")
 
 
 class SpeedRange(_Range[Speed]):
@@ -31,8 +31,8 @@ class RpmRange(_Range[Rpm]):
     """Speeds in rpm from `start` to `stop`, both included."""
 
 
-SpeedList: Any = Annotated[list[or_section(Speed, SpeedRange)], Field(min_length=1)]  # type: ignore[misc]
-RpmList: Any = Annotated[list[or_section(Rpm, RpmRange)], Field(min_length=1)]  # type: ignore[misc]
+SpeedList: Any = Annotated[list[either(Speed, SpeedRange)], Field(min_length=1)]  # type: ignore[misc]
+RpmList: Any = Annotated[list[either(Rpm, RpmRange)], Field(min_length=1)]  # type: ignore[misc]
 
 
 class SpeedRule(Section):
@@ -48,14 +48,7 @@ class SpeedRule(Section):
 
 def word_or_speeds(*words: str) -> Any:
     """Type of a key with speeds (rad/s), or one of some words in their place."""
-    word = Annotated[Literal[words], Tag("word")]  # type: ignore[valid-type]
-    speeds = Annotated[Unique[Speed], Tag("speeds")]
-    return Annotated[word | speeds, Discriminator(lambda value: "speeds" if isinstance(value, list) else "word")]
-
-
-def refuse_both_units(first: str, second: str) -> None:
-    """Raise the error of a section that gives the same speeds in two keys, of two units."""
-    raise refused((second,), f"both {first} and {second}", "one of them")
+    return either(Literal[words], rows=Unique[Speed])
 
 
 def key_of_speeds(section: Any) -> str:

@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Field
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 
-from .section import LeftOut, Section, Unique, left_out, plain, refused
+from .section import LeftOut, Section, Unique, left_out, option, plain, refused
 
 Width = Annotated[float, Field(ge=1e-12, le=1e15)]
 Percent = Annotated[float, Field(ge=1e-6, le=1000)]
@@ -21,7 +21,7 @@ _LEAST_SHARE = 2.0**-64
 
 def _ascending(bounds: list[float]) -> list[float]:
     if not bounds[0] < bounds[1]:
-        raise refused((), f"{bounds}", "a lower and a higher number")
+        raise refused(f"{bounds}", "a lower and a higher number")
     return bounds
 
 
@@ -34,7 +34,7 @@ PositiveBounds = Annotated[list[Width], Field(min_length=2, max_length=2), After
 def _power_of_two(members: int) -> int:
     if members & (members - 1):
         nearest = 2 ** members.bit_length()
-        raise refused((), f"{members}", f"a power of two, such as {nearest // 2} or {nearest}")
+        raise refused(f"{members}", f"a power of two, such as {nearest // 2} or {nearest}")
     return members
 
 
@@ -56,7 +56,7 @@ class SpreadEntry(Section):
     def _check(self) -> None:
         kinds = list(plain(self))
         if len(kinds) != 1:
-            raise refused((), " and ".join(kinds) or "nothing", f"one of {', '.join(type(self).model_fields)}")
+            raise refused(" and ".join(kinds) or "nothing", f"one of {', '.join(type(self).model_fields)}")
 
     @cached_property
     def distribution(self) -> tuple[str, list[float]]:
@@ -97,14 +97,14 @@ class SpreadEntry(Section):
 class Spreads(Section):
     """Numbers that spread, of scenes and of blades."""
 
-    of_scenes: dict[str, SpreadEntry] = Field(
-        default={}, description="Distributions of scene keys by dotted name, such as lining.elastic_modulus_pa"
+    of_scenes: dict[str, SpreadEntry] = option(
+        "Distributions of scene keys by dotted name, such as lining.elastic_modulus_pa", {}
     )
-    of_blades: dict[str, SpreadEntry] = Field(
-        default={},
-        description="Distributions of blade numbers: material.<key>; sweep_percent and lean_percent of the table; sweep_cm and "
+    of_blades: dict[str, SpreadEntry] = option(
+        "Distributions of blade numbers: material.<key>; sweep_percent and lean_percent of the table; sweep_cm and "
         "lean_deg, added in proportion to the span; stagger_deg, camber_deg, chord_percent and thickness_percent, also with "
         ".hub or .tip",
+        {},
     )
 
     @property

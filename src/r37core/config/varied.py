@@ -1,11 +1,11 @@
 """Keys that make one entry a family of designs: `vary`, `combine` and `designs`, of blades and of scenes."""
 
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
-from .section import FileName, LeftOut, Section, Unique, left_out, refused
+from .section import FileName, LeftOut, Section, Unique, either, left_out, option, refused
 
 LARGEST_FAMILY = 10_000
 """Designs of one entry."""
@@ -14,17 +14,17 @@ LARGEST_FAMILY = 10_000
 class Variation(Section):
     """Values from `start` to `stop`, both included, as far as the step goes."""
 
-    start: float = Field(ge=-1e12, le=1e12, description="First value, in the unit of the varied key")
-    stop: float = Field(ge=-1e12, le=1e12, description="Last value, if the step reaches it")
-    step: float = Field(ge=1e-12, le=1e12, description="Distance between values")
+    start: float = option("First value, in the unit of the varied key", ge=-1e12, le=1e12)
+    stop: float = option("Last value, if the step reaches it", ge=-1e12, le=1e12)
+    step: float = option("Distance between values", ge=1e-12, le=1e12)
 
     def _check(self) -> None:
         if self.stop < self.start:
-            raise refused(("stop",), f"{self.stop:g}", f"not below start ({self.start:g})")
+            raise refused(f"{self.stop:g}", f"not below start ({self.start:g})", "stop")
         if self.step > self.stop - self.start > 0.0:
-            raise refused(("step",), f"{self.step:g}", f"at most stop - start ({self.stop - self.start:g})")
+            raise refused(f"{self.step:g}", f"at most stop - start ({self.stop - self.start:g})", "step")
         if (self.stop - self.start) / self.step >= LARGEST_FAMILY:
-            raise refused(("step",), f"{self.step:g}", f"at most {LARGEST_FAMILY} values")
+            raise refused(f"{self.step:g}", f"at most {LARGEST_FAMILY} values", "step")
 
     def values(self) -> list[float]:
         """All values of the range, with twelve digits: what rounding leaves of a sum is no other value."""
@@ -32,27 +32,26 @@ class Variation(Section):
         return [float(f"{self.start + number * self.step:.12g}") for number in range(count)]
 
 
-Varied = Annotated[
-    Annotated[Unique[float], Tag("list")] | Annotated[Variation, Tag("range")],
-    Discriminator(lambda value: "list" if isinstance(value, list) else "range"),
-]
-Vary = Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut
-Combine = Literal["grid", "pairs"]
-DesignTable = FileName | LeftOut
-COMBINE: Any = Field(default="grid", description="grid combines every value with every other, pairs the first with the first")
+Varied: Any = either(Variation, rows=Unique[float])
 FAMILY_WAYS = ("vary", "designs")
 FAMILY_KEYS = (*FAMILY_WAYS, "combine")
 """Keys of a family, of which it has one of FAMILY_WAYS."""
 
 
-def vary_field(example: str) -> Any:
-    """Field of the key `vary`; `example`: of keys."""
-    return left_out(f"Family: values of numeric keys, such as {example}")
+class FamilyKeys(Section):
+    """Keys that make an entry a family: many blades or scenes that differ in some numbers."""
 
+    refuse_several: ClassVar[tuple[tuple[str, ...], ...]] = (FAMILY_WAYS,)
 
-def designs_field(kind: str) -> Any:
-    """Field of the key `designs` of a `kind` of entry."""
-    return left_out(f"Family as a table (CSV): a design per row, its name in the column `{kind}`, then numeric keys")
+    vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = left_out(
+        "Family: values of numeric keys, such as sweep_percent of a blade or casing.clearance_m of a scene"
+    )
+    combine: Literal["grid", "pairs"] = option(
+        "grid combines every value with every other, pairs the first with the first", "grid"
+    )
+    designs: FileName | LeftOut = left_out(
+        "Family as a table (CSV): a design per row, its name in the column `blade` or `scene`, then numeric keys"
+    )
 
 
 def is_family(entry: Any) -> bool:

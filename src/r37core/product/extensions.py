@@ -40,7 +40,7 @@ def blades_are_no_other_folders(settings: Settings) -> None:
         if name.lower() in RESERVED:
             what = f"the {'design' if name in family_of else 'blade'} '{name}'"
             allowed = f"another name; {', '.join(RESERVED)} are folders of the results"
-            raise settings.documents.blades.refusal((family_of.get(name, name),), what, allowed)
+            raise settings.designs.document.refusal(what, allowed, family_of.get(name, name))
 
 
 READER = Reader(CONFIG, (blades_are_no_other_folders, *CHECKS, *(check for each in EXTENSIONS for check in each.checks)))

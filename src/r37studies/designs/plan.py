@@ -36,9 +36,9 @@ class Families:
         """Kind -> design that is run -> column of designs.csv -> value of what varies."""
         return {
             kind: {
-                design: {VariedNumber(kind, key).name: value for key, value in family.values(design).items()}
+                design: {VariedNumber(kind, key).name: value for key, value in values.items()}
                 for family in families.values()
-                for design in family.designs
+                for design, values in family.items()
             }
             for kind, families in self.families.items()
         }
@@ -68,9 +68,9 @@ class Families:
         plain = tuple(name for name in settings.scene_names if name not in family_of) or tuple(settings.scene_names)
         for kind, families in self.families.items():
             for name, family in families.items():
-                designs = tuple(family.designs)
+                designs, keys = tuple(family), next(iter(family.values()))
                 blades, scenes = (designs, plain) if kind == BLADE else (tuple(settings.blade_names), designs)
-                figures[name] = Compared(kind, tuple(VariedNumber(kind, key).name for key in family.keys), blades, scenes)
+                figures[name] = Compared(kind, tuple(VariedNumber(kind, key).name for key in keys), blades, scenes)
         return figures
 
     @cached_property
@@ -92,15 +92,15 @@ class Families:
 def families_can_be_compared(settings: Settings) -> None:
     """No family is of an imported blade, as shapes are compared, and none of scenes is called like one of blades."""
     for name, family in Families(settings).families[BLADE].items():
-        members = [settings.blades[design] for design in family.designs if design in settings.blades]
+        members = [settings.blades[design] for design in family if design in settings.blades]
         if any(not blade.has_profiles for blade in members):
             allowed = "families of blades with profiles"
-            raise settings.documents.blades.refusal((name,), "a family of an imported blade", allowed)
+            raise settings.designs.document.refusal("a family of an imported blade", allowed, name)
     taken = {name.lower() for name in settings.designs.families}
     for name in settings.scene_designs.families:
         # figures have their names
         if name.lower() in taken:
-            raise settings.documents.scenes.refusal((name,), f"'{name}', which is a family of blades, too", "another name")
+            raise settings.scene_designs.document.refusal(f"'{name}', which is a family of blades, too", "another name", name)
 
 
 def _of(sweep: Sweep) -> Families:

@@ -9,8 +9,8 @@ from pydantic import Field
 from r37core.base.plain import to_plain
 from r37core.base.speeds import exact_text
 from r37core.config import Settings, si_fields
-from r37core.config.section import ExtensionSection, LeftOut, Rpm, Section, Unique
-from r37core.config.speed_section import refuse_both_units, word_or_speeds
+from r37core.config.section import ExtensionSection, LeftOut, Rpm, Section, Unique, left_out, option
+from r37core.config.speed_section import word_or_speeds
 from r37core.fem.orientation import OURS
 from r37core.plans import paths
 from r37core.plans.extension import Extension
@@ -24,26 +24,20 @@ ChosenSpeeds: Any = word_or_speeds("worst", "all")
 class ExportSection(Section):
     """Files of `snakemake exports`."""
 
-    mesh_formats: Unique[Literal["msh", "vtu", "inp"]] = Field(
-        default=["msh", "vtu", "inp"], description="Mesh formats; inp is a complete CalculiX/Abaqus deck"
-    )
-    modes: int = Field(default=10, ge=1, le=30, description="Number of modes at each speed")
-    mode_speeds_rad_s: Annotated[Unique[ModeSpeed], Field()] | LeftOut = Field(
-        default=None, description="Speeds of the modes; by default rest and structure.maximum_speed_rad_s"
-    )
-    stress_speeds_rad_s: ChosenSpeeds = Field(
-        default="worst",
-        description="Speeds whose worst instant is written; worst: that of the largest stress of each blade and scene",
-    )
-    stress_speeds_rpm: Unique[Rpm] | LeftOut = Field(default=None, description="The same speeds in revolutions per minute")
-    full_matrices: bool = Field(
-        default=False, description="Whether matrices of all nodes (hundreds of MB) replace the reduced ones"
-    )
+    refuse_several = (("stress_speeds_rad_s", "stress_speeds_rpm"),)
 
-    def _check(self) -> None:
-        # the shipped config.yaml gives the default of stress_speeds_rad_s
-        if self.stress_speeds_rpm is not None and self.stress_speeds_rad_s != "worst":
-            refuse_both_units("stress_speeds_rad_s", "stress_speeds_rpm")
+    mesh_formats: Unique[Literal["msh", "vtu", "inp"]] = option(
+        "Mesh formats; inp is a complete CalculiX/Abaqus deck", ["msh", "vtu", "inp"]
+    )
+    modes: int = option("Number of modes at each speed", 10, ge=1, le=30)
+    mode_speeds_rad_s: Annotated[Unique[ModeSpeed], Field()] | LeftOut = left_out(
+        "Speeds of the modes; by default rest and structure.maximum_speed_rad_s"
+    )
+    stress_speeds_rad_s: ChosenSpeeds = option(
+        "Speeds whose worst instant is written; worst: that of the largest stress of each blade and scene", "worst"
+    )
+    stress_speeds_rpm: Unique[Rpm] | LeftOut = left_out("The same speeds in revolutions per minute")
+    full_matrices: bool = option("Whether matrices of all nodes (hundreds of MB) replace the reduced ones", False)
 
     def stress_speeds(self) -> tuple[float, ...] | None:
         """Speeds (rad/s) that are named; None for `worst` and `all`."""
@@ -121,17 +115,17 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def exported_speeds_are_run(settings: Settings) -> None:
     """Speeds of `exports` are simulated whatever is found, and within the reduced model's basis."""
-    exported, highest, document = settings.section(SECTION), settings.structure.maximum_speed_rad_s, settings.documents.config
+    exported, highest, document = settings.section(SECTION), settings.structure.maximum_speed_rad_s, settings.document
     run = {speed for plan in settings.speed_plans.values() for speed in plan.certain}
     key = "stress_speeds_rad_s" if exported.stress_speeds_rpm is None else "stress_speeds_rpm"
     allowed = "speeds that are simulated whatever a range refines to; name it under speeds, too"
     for number, speed in enumerate(exported.stress_speeds() or []):
         if speed not in run:
-            raise document.refusal(("exports", key, number), f"{getattr(exported, key)[number]:g}", allowed)
+            raise document.refusal(f"{getattr(exported, key)[number]:g}", allowed, "exports", key, number)
     for number, speed in enumerate(exported.mode_speeds_rad_s or []):
         if speed > highest:
             allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
-            raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
+            raise document.refusal(f"{speed:g}", allowed, "exports", "mode_speeds_rad_s", number)
 
 
 def full_matrices_are_linear(settings: Settings) -> None:
@@ -139,9 +133,7 @@ def full_matrices_are_linear(settings: Settings) -> None:
     others = [name for name in settings.blades if settings.kinematics_of(name) != LINEAR]
     if settings.section(SECTION).full_matrices and others:
         value = f"true with the blade '{others[0]}' of kinematics {settings.kinematics_of(others[0])}"
-        raise settings.documents.config.refusal(
-            ("exports", "full_matrices"), value, f"false, or structure.kinematics: {LINEAR}"
-        )
+        raise settings.document.refusal(value, f"false, or structure.kinematics: {LINEAR}", "exports", "full_matrices")
 
 
 EXTENSION = Extension(

@@ -45,15 +45,15 @@ class Calibrated:
         from r37studies.measured.rub_tests.lining_fit import fit_lining
         from r37studies.measured.rub_tests.rig_table import read_rub_test
 
-        document, path = settings.documents.config, (CALIBRATE.name, "rub_test")
+        document, path = settings.document, (CALIBRATE.name, "rub_test")
         lining = next((lining for _, name in self.pairs if (lining := settings.scenes[name].scene.lining)), None)
         if lining is None or lining.published or _LENGTH in spreads:
             allowed = f"a measured scene with a lining by contact_length_m, and no distribution of {_LENGTH.key}"
-            raise document.refusal(path, file, allowed)
+            raise document.refusal(file, allowed, *path)
         with document.blamed(path, ConfigError):
             low, high = fit_lining(read_rub_test(settings.root / file, {}), lining).contact_length.range_95
         if not 0.0 < low < high < np.inf:
-            raise document.refusal(path, f"{file}, which does not tell the contact length", "more points")
+            raise document.refusal(f"{file}, which does not tell the contact length", "more points", *path)
         return {_LENGTH: SpreadEntry(log_between=[low, high]), **spreads}
 
     @property
@@ -64,7 +64,7 @@ class Calibrated:
     @cached_property
     def nominal(self) -> list[float]:
         """Value in the configuration of each number, which all measured blades and scenes that have it share."""
-        settings, document, values = self.settings, self.settings.documents.config, []
+        settings, document, values = self.settings, self.settings.document, []
         scenes = {scene: scene_numbers(settings.scene_designs.entries[scene]) for _, scene in self.pairs}
         check_known(self.spreads, (key for known in scenes.values() for key in known), document, (CALIBRATE.name,))
         for number in self.spreads:
@@ -72,10 +72,10 @@ class Calibrated:
             try:
                 known = {nominal_value(number, settings.blades[blade], scenes[scene]) for blade, scene in self.pairs} - {None}
             except ValueError as error:
-                raise document.refusal(path, str(error), "other numbers") from None
+                raise document.refusal(str(error), "other numbers", *path) from None
             if len(known) != 1:
                 which = f"{number.key} {'with several values' if known else 'that no measured blade or scene has'}"
-                raise document.refusal(path, which, "a number with one value in what was measured")
+                raise document.refusal(which, "a number with one value in what was measured", *path)
             values += [float(value) for value in known if value is not None]
         return values
 

@@ -58,10 +58,10 @@ class Measured:
         # reading tables takes pandas, which a run without measurements does not load
         from .file import read_points
 
-        settings, document = self.settings, self.settings.documents.config
+        settings, document = self.settings, self.settings.document
 
         def refusal(key: str, value: str, allowed: str) -> ConfigError:
-            return document.refusal((MEASURED.name, number, key), value, allowed)
+            return document.refusal(value, allowed, MEASURED.name, number, key)
 
         for key, known in {"blade": settings.blade_names, "scene": settings.scene_names}.items():
             if (name := getattr(entry, key)) not in known:

@@ -30,12 +30,12 @@ def can_be_calibrated(settings: Settings) -> None:
     """There are measurements, the numbers are there and possible over their ranges, and the library is installed."""
     if settings.section(CALIBRATE) is None:
         return
-    document, calibrated, measured = settings.documents.config, settings.made(Calibrated), settings.made(Measured)
+    document, calibrated, measured = settings.document, settings.made(Calibrated), settings.made(Measured)
     if not settings.section(MEASURED):
-        raise document.refusal((CALIBRATE.name,), "no measurement", "measured: with a file beside it")
+        raise document.refusal("no measurement", "measured: with a file beside it", CALIBRATE.name)
     has_gauge = any(each.quantity == STRAIN for each in measured.all.values())
     if has_gauge and any(number.kind == BLADE for number in calibrated.spreads):
-        raise document.refusal((CALIBRATE.name, "of_blades"), "numbers of blades with a gauge", "of_scenes, or no gauge")
+        raise document.refusal("numbers of blades with a gauge", "of_scenes, or no gauge", CALIBRATE.name, "of_blades")
     for (number, spread), value in zip(calibrated.spreads.items(), calibrated.nominal, strict=True):
         try:
             for end in spread.ends(value):

@@ -6,7 +6,19 @@ from pydantic import Field
 
 from r37core.base.io import CarriedError
 from r37core.config.blade_sections import Degrees, GaugeEntry
-from r37core.config.section import ExtensionSection, FileName, LeftOut, Name, Rpm, Section, Speed, left_out, or_section, refused
+from r37core.config.section import (
+    ExtensionSection,
+    FileName,
+    LeftOut,
+    Name,
+    Rpm,
+    Section,
+    Speed,
+    either,
+    left_out,
+    option,
+    refused,
+)
 from r37core.config.spread import Percent, Spreads, Width
 
 from .points import STRAIN, TIP_TIMING, WORN_DEPTH
@@ -20,20 +32,18 @@ class MeasurementSection(Section):
 
     refuse_several = (("speed_rad_s", "speed_rpm"),)
 
-    file: FileName = Field(description="CSV with a header that has units: `speed_rpm`, `amplitude (um)`")
-    blade: Name = Field(description="Blade that is run")
-    scene: Name = Field(description="Scene that is run")
+    file: FileName = option("CSV with a header that has units: `speed_rpm`, `amplitude (um)`")
+    blade: Name = option("Blade that is run")
+    scene: Name = option("Scene that is run")
     quantity: Literal[
         "displacement_normal", "displacement_tangential", "displacement_radial", "strain", "tip_timing", "worn_depth"
-    ] = Field(
-        description="What was measured: a displacement of the tip, strain of a gauge, displacement by tip timing, or worn depth"
-    )
-    statistic: Literal["rms", "half_peak_to_peak", "order"] = Field(
-        default="rms", description="Statistic of the values; of a time signal amplitudes of its engine orders"
+    ] = option("What was measured: a displacement of the tip, strain of a gauge, displacement by tip timing, or worn depth")
+    statistic: Literal["rms", "half_peak_to_peak", "order"] = option(
+        "Statistic of the values; of a time signal amplitudes of its engine orders", "rms"
     )
     engine_order: Annotated[int, Field(ge=1, le=1000)] | LeftOut = left_out("Engine order, with statistic: order")
-    tip_point: Literal["leading_edge", "trailing_edge"] = Field(default="leading_edge", description="End of the tip")
-    gauge: or_section(Name, GaugeEntry) | LeftOut = left_out(  # type: ignore[valid-type]
+    tip_point: Literal["leading_edge", "trailing_edge"] = option("End of the tip", "leading_edge")
+    gauge: either(Name, GaugeEntry) | LeftOut = left_out(  # type: ignore[valid-type]
         "Gauge of a strain: its place, or its name under signals.gauges"
     )
     probe_deg: Degrees | LeftOut = left_out("Casing angle of the tip-timing probe, towards growing theta")
@@ -42,9 +52,9 @@ class MeasurementSection(Section):
     uncertainty_percent: Percent | LeftOut = left_out("Standard deviation of each value")
     speed_rad_s: Speed | LeftOut = left_out("Speed, where the file has none")
     speed_rpm: Rpm | LeftOut = left_out("The same speed in revolutions per minute")
-    rows: dict[str, str] = Field(default={}, description="Rows of a long file that count: text by column")
-    speed_of: Literal["values", "peak", "first_above"] = Field(
-        default="values", description="In place of the values the speed of the largest, or the first speed above a limit"
+    rows: dict[str, str] = option("Rows of a long file that count: text by column", {})
+    speed_of: Literal["values", "peak", "first_above"] = option(
+        "In place of the values the speed of the largest, or the first speed above a limit", "values"
     )
     limit: Width | LeftOut = left_out("Limit of first_above in SI units")
 
@@ -54,11 +64,11 @@ class MeasurementSection(Section):
         for key, (owner, needing) in (needs | {"engine_order": (statistic, "statistic order")}).items():
             if (getattr(self, key) is not None) != (needed := owner == needing):
                 joint, allowed = ("without", "beside it") if needed else ("with", "left out")
-                raise refused((key,), f"{owner} {joint} {key}", f"{key} {allowed}")
+                raise refused(f"{owner} {joint} {key}", f"{key} {allowed}", key)
         if self.quantity in (TIP_TIMING, WORN_DEPTH) and self.statistic == "order":
-            raise refused(("statistic",), f"order of {self.quantity}", "another statistic")
+            raise refused(f"order of {self.quantity}", "another statistic", "statistic")
         if (self.limit is None) == (self.speed_of == "first_above"):
-            raise refused(("limit",), f"{self.speed_of} {'without' if self.limit is None else 'with'} a limit", "both or none")
+            raise refused(f"{self.speed_of} {'without' if self.limit is None else 'with'} a limit", "both or none", "limit")
 
 
 class MeasurementError(CarriedError):
@@ -72,30 +82,28 @@ class MeasurementError(CarriedError):
 class CalibrateSection(Spreads):
     """Numbers that are fitted to the measurements, with what is known of them before."""
 
-    runs: int = Field(default=48, ge=8, le=2000, description="Number of designs: sets of values that are simulated")
-    first: int = Field(default=16, ge=4, le=2000, description="Number of first designs, evenly spread")
-    batch: int = Field(default=4, ge=1, le=500, description="Number of designs per round, run in parallel")
-    draws: int = Field(default=256, ge=32, le=4096, description="Number of draws of the result, for tolerances.drawn_file")
-    seed: int = Field(default=0, ge=0, le=2**31, description="Seed of designs and draws")
+    runs: int = option("Number of designs: sets of values that are simulated", 48, ge=8, le=2000)
+    first: int = option("Number of first designs, evenly spread", 16, ge=4, le=2000)
+    batch: int = option("Number of designs per round, run in parallel", 4, ge=1, le=500)
+    draws: int = option("Number of draws of the result, for tolerances.drawn_file", 256, ge=32, le=4096)
+    seed: int = option("Seed of designs and draws", 0, ge=0, le=2**31)
     rub_test: FileName | LeftOut = left_out(
         "CSV of a rub rig with depth, force, width and thickness: its 95% range of lining.contact_length_m counts"
     )
 
     def _check(self) -> None:
         if not self.spreads and self.rub_test is None:
-            raise refused((), "no number", "some under of_scenes or of_blades, each with its range")
+            raise refused("no number", "some under of_scenes or of_blades, each with its range")
         if 2 * self.first > self.runs:
             # designs of later rounds say how wrong the surrogates are
-            raise refused(("first",), f"{self.first}", f"at most half of runs ({self.runs})")
+            raise refused(f"{self.first}", f"at most half of runs ({self.runs})", "first")
 
 
 MEASURED: ExtensionSection[Any] = ExtensionSection(
-    "measured",
-    list[MeasurementSection],
-    Field(default=[], description="Measurements beside the simulation (docs/measurement.md)"),
+    "measured", list[MeasurementSection], option("Measurements beside the simulation (docs/measurement.md)", [])
 )
 CALIBRATE: ExtensionSection[CalibrateSection | None] = ExtensionSection(
     "calibrate",
     CalibrateSection | LeftOut,  # type: ignore[arg-type]
-    Field(default=None, description="Numbers fitted to the measurements (docs/measurement.md)"),
+    left_out("Numbers fitted to the measurements (docs/measurement.md)"),
 )

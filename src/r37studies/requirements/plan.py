@@ -5,13 +5,11 @@ from functools import cached_property
 from math import nan
 from typing import Any
 
-from pydantic import Field
-
 from r37core.base.plain import to_plain
 from r37core.config import Settings, level_errors, operating_range
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.declaring import declared_by, si_form
-from r37core.config.section import ExtensionSection, Section
+from r37core.config.section import ExtensionSection, Section, option
 from r37core.config.settings import contact_nodes, length_of_run
 from r37core.contact.casing import least_change
 from r37core.plans import paths
@@ -37,9 +35,7 @@ class CampbellMarginSection(Section):
 class RequirementsSection(Section):
     """Requirements; a run judges each blade in each scene by them."""
 
-    campbell_margins: list[CampbellMarginSection] = Field(
-        default=[], description="Margins of crossings in the Campbell diagram"
-    )
+    campbell_margins: list[CampbellMarginSection] = option("Margins of crossings in the Campbell diagram", [])
 
     def requirements(self) -> Requirements:
         """The requirements in SI units."""
@@ -47,10 +43,10 @@ class RequirementsSection(Section):
         return si_form(Requirements, self, campbell_margins=margins)
 
 
-SECTION: ExtensionSection[RequirementsSection] = ExtensionSection(
+SECTION = ExtensionSection(
     "requirements",
     RequirementsSection,
-    Field(default=RequirementsSection(), description="Requirements in operation, by which each blade and scene is judged"),
+    option("Requirements in operation, by which each blade and scene is judged", RequirementsSection()),
 )
 
 VERDICT, LOOKS = "<results>/verdict.csv", "<results>/{blade}/{scene}/looks.nc"
@@ -151,7 +147,7 @@ class Judged:
     def known_of(self, blade: str, scene: str) -> dict[str, Any]:
         """Fields of the Evidence on a blade in a scene that follow from the configuration, as plain values."""
         settings = self.sweep.settings
-        casing, lining = settings.scenes[scene].scene.casing, settings.linings.get(scene)
+        casing, lining = settings.scenes[scene].scene.casing, settings.scenes[scene].scene.lining
         return {
             "clearance": nan if casing.changes_with_speed else casing.clearance + least_change(casing),
             "thickness": lining.thickness if lining else nan,
@@ -171,27 +167,25 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def can_be_judged(settings: Settings) -> None:
     """Requirements have an operating range, and their crossings are in the Campbell diagram."""
-    requirements, document = settings.section(SECTION).requirements(), settings.documents.config
+    requirements, document = settings.section(SECTION).requirements(), settings.document
     if not requirements.any:
         return
     operating = operating_range(settings)
     if operating is None:
-        raise document.refusal(
-            ("requirements",), "requirements without operating", "operating: with idle and redline beside them"
-        )
+        raise document.refusal("requirements without operating", "operating: with idle and redline beside them", "requirements")
     modes = mode_names(settings.config.campbell.modes)
     asked: set[tuple[str, int]] = set()
     for number, margin in enumerate(requirements.campbell_margins):
         place = ("requirements", "campbell_margins", number)
         parts = modes_of(margin.mode)
         if not set(parts) <= set(modes) or len(parts) > len(set(parts)) or len(parts) > 2:
-            raise document.refusal((*place, "mode"), f"'{margin.mode}'", f"{', '.join(modes)}, or two of them as 7-5 or 5+7")
+            raise document.refusal(f"'{margin.mode}'", f"{', '.join(modes)}, or two of them as 7-5 or 5+7", *place, "mode")
         if not margin.engine_orders:
-            raise document.refusal((*place, "engine_orders"), "none", "one or more engine orders")
+            raise document.refusal("none", "one or more engine orders", *place, "engine_orders")
         engine_order_is_known(settings, (*place, "engine_orders"), max(margin.engine_orders))
         for order in margin.engine_orders:
             if (margin.mode, order) in asked:
-                raise document.refusal((*place, "engine_orders"), f"{order} of {margin.mode} twice", "each once")
+                raise document.refusal(f"{order} of {margin.mode} twice", "each once", *place, "engine_orders")
             asked.add((margin.mode, order))
         # a crossing above the diagram is not known, and may be too near
         needed = max([dwell.stop for dwell in operating.dwell] or [operating.last]) / (1.0 - min(margin.least, 0.99))
@@ -200,7 +194,7 @@ def can_be_judged(settings: Settings) -> None:
             allowed = (
                 f"a margin within structure.maximum_speed_rad_s ({settings.structure.maximum_speed_rad_s:g}), or that larger"
             )
-            raise document.refusal((*place, "at_least_percent"), reach, allowed)
+            raise document.refusal(reach, allowed, *place, "at_least_percent")
 
 
 _LOOKED = 0.7
@@ -231,7 +225,7 @@ def _not_told(settings: Settings) -> list[str]:
     """Requirements that no run of some blades and scenes can tell, for want of a result or of strengths."""
     requirements, sweep, lines = settings.section(SECTION).requirements(), Sweep(settings), []
     pairs = sweep.runs_with("rms")
-    lined = [pair for pair in pairs if pair[1] in settings.linings]
+    lined = [pair for pair in pairs if settings.scenes[pair[1]].scene.lined]
     weak = [name for name in settings.blades if not settings.blades[name].strengths.are_known]
     for name, result, asked in (
         ("above_yield", "stress", pairs),

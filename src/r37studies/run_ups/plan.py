@@ -10,7 +10,7 @@ from r37core.base.yaml_file import KeyPath
 from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.cross_checks import engine_order_is_known, names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
-from r37core.config.remarks import elastic_casings, remark_on_overtaken_waves
+from r37core.config.remarks import elastic_casings, remarks_on_overtaken_waves
 from r37core.config.settings import fastest_of, length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
@@ -106,14 +106,14 @@ def further_runs(settings: Settings) -> dict[Pair, Runs]:
 
 def remarks(settings: Settings) -> list[str]:
     """Remarks on elastic casings that only a run-up overtakes, as far as no crossing decides its speeds."""
-    lines = []
+    lines: list[str] = []
     choices = RunUps(Sweep(settings)).choices
     for name, casing in elastic_casings(settings).items():
         scene_choices = [choice for (_, scene), named in choices.items() if scene == name for choice in named.values()]
         fastest = max((max(choice.start, choice.stop) for choice in scene_choices if choice.crossing is None), default=0.0)
         if fastest > fastest_of(settings, name):
-            lines.append(remark_on_overtaken_waves(name, casing, fastest))
-    return [line for line in lines if line]
+            lines += remarks_on_overtaken_waves(name, casing, fastest)
+    return lines
 
 
 def run_ups_can_be_done(settings: Settings) -> None:
@@ -127,7 +127,7 @@ def run_ups_can_be_done(settings: Settings) -> None:
 def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
     path: KeyPath = ("run_ups", name)
     names_are_there(settings, path, entry)
-    time, document = settings.fidelity.time_integration, settings.documents.config
+    time, document = settings.fidelity.time_integration, settings.document
     choice, highest = entry.choice(time.revolutions), settings.structure.maximum_speed_rad_s
     with document.blamed((*path, entry.key_of_length), RunUpError):
         # of a crossing what holds wherever it lies: the higher, the more revolutions
@@ -139,10 +139,10 @@ def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
     for scene in scenes_named(settings, entry.scenes):
         if entry.lining == "worn" and settings.scene_designs.entries[scene].lining is None:
             lining = f"worn in the scene '{scene}', which has no lining"
-            raise document.refusal((*path, "lining"), lining, "new, or scenes with a lining")
+            raise document.refusal(lining, "new, or scenes with a lining", *path, "lining")
         if scene in settings.scenes and settings.scenes[scene].scene.rotor is not None:
             allowed = "scenes of a single blade; the speed of a rotor does not change while it runs"
-            raise document.refusal((*path, "scenes"), f"'{scene}', which has a rotor", allowed)
+            raise document.refusal(f"'{scene}', which has a rotor", allowed, *path, "scenes")
     # neither the run-up nor a revolution at its slowest speed, whose steps all have, may have too many steps
     for scene in settings.scenes if entry.crossing is None else ():
         revolutions = choice.before + run_up.revolutions + choice.after

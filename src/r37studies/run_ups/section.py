@@ -2,10 +2,10 @@
 
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field
+from pydantic import Field
 
 from r37core.config.declaring import declared_by, si_form
-from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, check_names, refused
+from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Named, Section, left_out, option, refused
 
 from .choice import Crossing, RunUpChoice
 
@@ -17,8 +17,8 @@ Share = Annotated[float, Field(ge=-0.5, le=1)]
 class CrossingSection(Section):
     """Speeds about a crossing of each blade's own Campbell diagram."""
 
-    first: Share = Field(description="Start, as a share of the crossing's speed above it")
-    last: Share = Field(description="End, as first; below first it is a run-down")
+    first: Share = option("Start, as a share of the crossing's speed above it")
+    last: Share = option("End, as first; below first it is a run-down")
 
 
 @declared_by(RunUpChoice)
@@ -27,14 +27,14 @@ class RunUpEntry(Section):
 
     one_of = (("from_rad_s", "from_rpm", "crossing"), ("to_rad_s", "to_rpm", "crossing"), _LENGTH)
 
-    blades: AllOrNames = Field(default="all", description="Blades of the run-up")
-    scenes: AllOrNames = Field(default="all", description="Scenes of the run-up")
-    crossing: CrossingSection | LeftOut = Field(default=None, description="Speeds about a crossing, in place of numbers")
+    blades: AllOrNames = option("Blades of the run-up", "all")
+    scenes: AllOrNames = option("Scenes of the run-up", "all")
+    crossing: CrossingSection | LeftOut = left_out("Speeds about a crossing, in place of numbers")
 
     def _check(self) -> None:
         choice = self.choice(1)
         if choice.start == choice.stop and self.revolutions is None:
-            raise refused((self.key_of_length,), "a rate between equal speeds", "revolutions, for a run at constant speed")
+            raise refused("a rate between equal speeds", "revolutions, for a run at constant speed", self.key_of_length)
 
     @property
     def key_of_length(self) -> str:
@@ -51,6 +51,6 @@ class RunUpEntry(Section):
 
 SECTION: ExtensionSection[dict[str, RunUpEntry]] = ExtensionSection(
     "run_ups",
-    Annotated[dict[Name, RunUpEntry], AfterValidator(check_names)],  # type: ignore[arg-type]
-    Field(default={}, description="Run-ups and run-downs by name"),
+    Named[RunUpEntry],  # type: ignore[arg-type]
+    option("Run-ups and run-downs by name", {}),
 )

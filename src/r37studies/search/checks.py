@@ -21,14 +21,14 @@ from .section import SECTION
 
 def search_can_be_run(settings: Settings) -> None:
     """The blade, the scenes and the variables are there, and the library is installed that proposes designs."""
-    entry, document = settings.section(SECTION), settings.documents.config
+    entry, document = settings.section(SECTION), settings.document
     if entry is None:
         return
     if entry.blade not in settings.blade_names:
-        raise document.refusal(("search", "blade"), f"'{entry.blade}'", f"one that is run ({', '.join(settings.blade_names)})")
+        raise document.refusal(f"'{entry.blade}'", f"one that is run ({', '.join(settings.blade_names)})", "search", "blade")
     designs = designs_of(settings)
     if not isinstance(settings.designs.entries[entry.blade], ShapeKeys):
-        raise document.refusal(("search", "blade"), f"'{entry.blade}', an imported blade", "a blade with profiles")
+        raise document.refusal(f"'{entry.blade}', an imported blade", "a blade with profiles", "search", "blade")
     _scenes_are_run(settings)
     for key, bounds in entry.variables.items():
         if VariedNumber.named(key).kind == SCENE:
@@ -41,7 +41,7 @@ def search_can_be_run(settings: Settings) -> None:
     for key in SHARES:
         if key in entry.variables and isinstance(table, Shape) and table.stacking is None:
             without = f"{key} of '{entry.blade}', which has no table of sweep and lean"
-            raise document.refusal(("search", "variables", key), without, "a blade with one, or other variables")
+            raise document.refusal(without, "a blade with one, or other variables", "search", "variables", key)
     _operation_is_known(settings)
     _tolerances_are_possible(settings, designs)
     with document.blamed(("search",), SearchPackageMissing):
@@ -52,14 +52,14 @@ def _operation_is_known(settings: Settings) -> None:
     """ConfigError for a measure in operation without an operating range, or where speeds do not reach over it."""
     choice, operating = choice_of(settings), operating_range(settings)
     named = [name for name, quantity in choice.quantities.items() if quantity.measure in IN_OPERATION]
-    document = settings.documents.config
+    document = settings.document
     if not named:
         return
     if operating is None:
-        raise document.refusal(("search",), f"{named[0]}, a measure in operation", "a section operating, or another measure")
+        raise document.refusal(f"{named[0]}, a measure in operation", "a section operating, or another measure", "search")
     for _, scene in pairs_not_covered(settings, operating)[:1]:
         reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
-        raise document.refusal(("operating",), f"{reach}, which the speeds of {scene} do not reach over", "speeds that do")
+        raise document.refusal(f"{reach}, which the speeds of {scene} do not reach over", "speeds that do", "operating")
 
 
 def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, values: dict[str, float]) -> None:
@@ -82,14 +82,14 @@ def _is_of_scenes(designs: SearchDesigns, document: Document, number: VariedNumb
         keys = (key for numbers in designs.scene_numbers.values() for key in numbers)
         known = dict.fromkeys(VariedNumber(SCENE, key).name for key in keys)
         without = f"{single_line(name)}, which none of the scenes {', '.join(designs.scenes)} has"
-        raise document.refusal(path, without, f"{', '.join(known)}{did_you_mean(name, known)}")
+        raise document.refusal(without, f"{', '.join(known)}{did_you_mean(name, known)}", *path)
     if len(set(values.values())) > 1:
         different = ", ".join(f"{value:g} in '{scene}'" for scene, value in values.items())
-        raise document.refusal(path, f"{name} with {different}", "scenes of the search that start at the same value")
+        raise document.refusal(f"{name} with {different}", "scenes of the search that start at the same value", *path)
 
 
 def _scenes_are_run(settings: Settings) -> None:
-    entry, document = designs_of(settings).entry, settings.documents.config
+    entry, document = designs_of(settings).entry, settings.document
     modes = mode_names(settings.config.campbell.modes)
     quantities = [
         ((where, name), each) for where in ("objectives", "constraints") for name, each in getattr(entry, where).items()
@@ -100,21 +100,21 @@ def _scenes_are_run(settings: Settings) -> None:
         for scene in quantity.scenes or ():
             if scene not in settings.scene_names:
                 allowed = f"scenes that are run ({', '.join(settings.scene_names)})"
-                raise document.refusal((*path, "scenes"), f"'{scene}'", allowed)
+                raise document.refusal(f"'{scene}'", allowed, *path, "scenes")
             if needed not in settings.results_of(entry.blade, scene):
                 allowed = f"scenes with {needed} among their results"
-                raise document.refusal((*path, "scenes"), f"'{scene}', without {needed}", allowed)
+                raise document.refusal(f"'{scene}', without {needed}", allowed, *path, "scenes")
         if quantity.mode is not None and quantity.mode not in modes:
             allowed = f"one of the Campbell diagram, {', '.join(modes)} (campbell.modes)"
-            raise document.refusal((*path, "mode"), single_line(quantity.mode), allowed)
+            raise document.refusal(single_line(quantity.mode), allowed, *path, "mode")
         if quantity.engine_order is not None:
             engine_order_is_known(settings, (*path, "engine_order"), quantity.engine_order)
     if not designs_of(settings).scenes:
-        raise document.refusal(("search", "objectives"), "no scene", "an objective or constraint of contact, with scenes")
+        raise document.refusal("no scene", "an objective or constraint of contact, with scenes", "search", "objectives")
 
 
 def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None:
-    tolerances, document = designs.entry.tolerances, settings.documents.config
+    tolerances, document = designs.entry.tolerances, settings.document
     if tolerances is None:
         return
     path, numbers = ("search", "tolerances"), tolerances.spreads
@@ -124,9 +124,9 @@ def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None
         try:
             nominal = blade_number(blade, key)
         except ValueError as error:
-            raise document.refusal((*path, "of_blades", key), str(error), "other numbers") from None
+            raise document.refusal(str(error), "other numbers", *path, "of_blades", key) from None
         if nominal is None:
-            raise document.refusal((*path, "of_blades", key), f"{key}, which '{designs.entry.blade}' does not have", "others")
+            raise document.refusal(f"{key}, which '{designs.entry.blade}' does not have", "others", *path, "of_blades", key)
     try:
         designs.members("of the search", None)
     except ImpossibleValueError as error:

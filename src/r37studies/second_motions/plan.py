@@ -79,7 +79,7 @@ def can_be_swept(settings: Settings) -> None:
         return
     names_are_there(settings, path, section)
     for key, value, allowed in _refusals(settings, section):
-        raise settings.documents.config.refusal((*path, *key), value, allowed)
+        raise settings.document.refusal(value, allowed, *path, *key)
     sweep, scenes = section.sweep(), dict.fromkeys(scene for _, scene in pairs_of(settings))
     longest = max(sweep.revolutions or 0, section.dwell.revolutions)
     runs = [length_of_run(settings, name, sweep.first, max(longest, settings.scenes[name].revolutions)) for name in scenes]
@@ -94,7 +94,7 @@ def _refusals(settings: Settings, section: SecondMotionSection) -> Iterator[tupl
     for scene in [] if section.scenes == "all" else scenes_named(settings, section.scenes):
         if scenes[scene].rotor is not None:
             yield ("scenes",), f"'{scene}', which has a rotor", "scenes of a single blade"
-        if sweep.worn and scene in settings.scenes and scene not in settings.linings:
+        if sweep.worn and scene in settings.scenes and not settings.scenes[scene].scene.lined:
             yield ("lining",), f"worn in the scene '{scene}', which has no lining", "new"
     count = (sweep.last - sweep.first) / sweep.step + 1.0
     if count > MOST_SPEEDS:

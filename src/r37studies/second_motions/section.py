@@ -2,11 +2,9 @@
 
 from itertools import product
 
-from pydantic import Field
-
 from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.declaring import declared_by, si_form
-from r37core.config.section import AllOrNames, ExtensionSection, Section, Speed, refused
+from r37core.config.section import AllOrNames, ExtensionSection, Section, Speed, option, refused
 
 from .choice import STEP, DwellChoice, SweepChoice
 
@@ -17,7 +15,7 @@ _FIRST, _LAST = ("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm")
 class DwellSection(Section):
     """Dwells at speeds at which motions differ."""
 
-    speeds_rad_s: list[Speed] = Field(default=[], description="More speeds that are dwelt on")
+    speeds_rad_s: list[Speed] = option("More speeds that are dwelt on", [])
 
 
 @declared_by(SweepChoice)
@@ -26,18 +24,17 @@ class SecondMotionSection(Section):
 
     refuse_several = (_FIRST, _LAST, ("step_rad_s", "step_rpm"))
 
-    blades: AllOrNames = Field(default="all", description="Blades that are swept")
-    scenes: AllOrNames = Field(default="all", description="Scenes that are swept; by default those without a rotor")
-    dwell: DwellSection = Field(default=DwellSection(), description="Dwells at speeds at which motions differ")
+    blades: AllOrNames = option("Blades that are swept", "all")
+    scenes: AllOrNames = option("Scenes that are swept; by default those without a rotor", "all")
+    dwell: DwellSection = option("Dwells at speeds at which motions differ", DwellSection())
 
     def _check(self) -> None:
-        changed = any(getattr(self, key) != field.default for key, field in type(self).model_fields.items())
-        if changed and len(self.end_keys) < 2:
+        if self.model_dump(exclude_defaults=True) and len(self.end_keys) < 2:
             value = f"{self.end_keys[0]} alone" if self.asked else "no speeds"
-            raise refused((), value, "from_rad_s and to_rad_s, or from_rpm and to_rpm")
+            raise refused(value, "from_rad_s and to_rad_s, or from_rpm and to_rpm")
         if self.asked and self.sweep().last < self.sweep().first:
             allowed = "a higher one; both sweeps go through the same speeds"
-            raise refused((self.end_keys[1],), "a speed below the lowest one", allowed)
+            raise refused("a speed below the lowest one", allowed, self.end_keys[1])
 
     @property
     def asked(self) -> bool:
@@ -59,12 +56,10 @@ class SecondMotionSection(Section):
         return si_form(DwellChoice, self.dwell, speeds=tuple(self.dwell.speeds_rad_s))
 
 
-SECTION: ExtensionSection[SecondMotionSection] = ExtensionSection(
+SECTION = ExtensionSection(
     "second_motions",
     SecondMotionSection,
-    Field(
-        default=SecondMotionSection(), description="Sweeps up and down the speeds, and what becomes of the motions they find"
-    ),
+    option("Sweeps up and down the speeds, and what becomes of the motions they find", SecondMotionSection()),
 )
 
 

@@ -1,8 +1,6 @@
 """shapes of config.yaml, and their plan: which blades and scenes have them, and which files are made."""
 
-from pydantic import Field
-
-from r37core.config.section import ExtensionSection, Section
+from r37core.config.section import ExtensionSection, Section, option
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.sweep_plan import Sweep
@@ -11,8 +9,8 @@ from r37core.plans.sweep_plan import Sweep
 class ShapeSection(Section):
     """Pictures of modes and of the worst instants of interactions."""
 
-    modes: int = Field(default=6, ge=1, le=30, description="Number of modes of each blade, at rest")
-    imported: bool = Field(default=True, description="Modes of imported meshes also without a scene that asks for shapes")
+    modes: int = option("Number of modes of each blade, at rest", 6, ge=1, le=30)
+    imported: bool = option("Modes of imported meshes also without a scene that asks for shapes", True)
 
 
 SECTION = ExtensionSection("shapes", ShapeSection, ShapeSection())

@@ -75,9 +75,9 @@ class Signals:
 
 def signals_have_runs(settings: Settings) -> None:
     """Signals are wanted of blades that are there and of some scene, and are no longer than its runs."""
-    wanted, documents = settings.section(SECTION), settings.documents
+    wanted, document = settings.section(SECTION), settings.document
     if wanted.blades != "all":
-        documents.known(("signals", "blades"), wanted.blades, settings.designs.entries, documents.blades)
+        document.known(("signals", "blades"), wanted.blades, settings.designs.entries, settings.designs.document)
     speeds, key = wanted.speeds(), ("signals", wanted.key_of_speeds)
     if speeds is None:
         return
@@ -86,18 +86,18 @@ def signals_have_runs(settings: Settings) -> None:
             slow_run_can_be_done(length_of_run(settings, name, speeds[0]), settings, key)
     signal_runs = {name: scene for name, scene in settings.scenes.items() if "signal" in scene.results}
     if not signal_runs:
-        raise documents.config.refusal(
-            key,
+        raise document.refusal(
             "speeds, though no scene that is run has signal among its results",
-            f"such a scene ({', '.join(settings.scenes)} of {documents.scenes.name} are run), or no speeds",
+            f"such a scene ({', '.join(settings.scenes)} of {settings.scene_designs.document.name} are run), or no speeds",
+            *key,
         )
     for name, scene in signal_runs.items():
         if scene.until_settled:
             value = f"speeds, with runs of '{name}' that end as they have settled, each in another revolution"
-            raise documents.config.refusal(key, value, "until: revolutions in that scene, or no speeds")
+            raise document.refusal(value, "until: revolutions in that scene, or no speeds", *key)
         if wanted.revolutions is not None and wanted.revolutions > scene.revolutions:
             allowed = f"at most those of a run, {scene.revolutions} in '{name}'"
-            raise documents.config.refusal(("signals", "revolutions"), f"{wanted.revolutions}", allowed)
+            raise document.refusal(f"{wanted.revolutions}", allowed, "signals", "revolutions")
 
 
 EXTENSION = Extension(

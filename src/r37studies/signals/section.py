@@ -2,21 +2,26 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import Field
 
 from r37core.config import si_fields
 from r37core.config.blade_sections import Degrees, GaugeEntry
-from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Rpm, Section, Unique, refused
+from r37core.config.section import (
+    AllOrNames,
+    EachOnce,
+    ExtensionSection,
+    LeftOut,
+    Name,
+    Rpm,
+    Section,
+    Unique,
+    left_out,
+    option,
+    refused,
+)
 from r37core.config.speed_section import word_or_speeds
 
 SignalSpeeds: Any = word_or_speeds("interactions")
-
-
-def _each_probe_once(probes: list[float]) -> list[float]:
-    for number, probe in enumerate(probes):
-        if probe in probes[:number]:
-            raise refused((number,), f"a probe at {probe:g} degrees twice", "each angle once")
-    return probes
 
 
 class SignalSection(Section):
@@ -24,26 +29,20 @@ class SignalSection(Section):
 
     refuse_several = (("speeds_rad_s", "speeds_rpm"),)
 
-    imported: bool = Field(
-        default=True, description="Signals of imported blades at the speeds of interactions, where no speeds are named"
+    imported: bool = option("Signals of imported blades at the speeds of interactions, where no speeds are named", True)
+    blades: AllOrNames = option("Blades with signals", "all")
+    speeds_rad_s: SignalSpeeds | LeftOut = left_out(
+        "Speeds with signals; interactions: the peak speeds in summary.csv; each other speed is a run"
     )
-    blades: AllOrNames = Field(default="all", description="Blades with signals")
-    speeds_rad_s: SignalSpeeds | LeftOut = Field(
-        default=None, description="Speeds with signals; interactions: the peak speeds in summary.csv; each other speed is a run"
-    )
-    speeds_rpm: Unique[Rpm] | LeftOut = Field(default=None, description="The same speeds in revolutions per minute")
-    revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(
-        default=None, description="Revolutions kept at the end; all without it"
-    )
-    gauges: dict[Name, GaugeEntry] = Field(default={}, description="Strain gauges by name")
-    probes_deg: Annotated[list[Degrees], AfterValidator(_each_probe_once)] = Field(
-        default=[], description="Casing angles of tip-timing probes, towards growing theta"
-    )
+    speeds_rpm: Unique[Rpm] | LeftOut = left_out("The same speeds in revolutions per minute")
+    revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = left_out("Revolutions kept at the end; all without it")
+    gauges: dict[Name, GaugeEntry] = option("Strain gauges by name", {})
+    probes_deg: EachOnce[Degrees] = option("Casing angles of tip-timing probes, towards growing theta", [])
 
     def _check(self) -> None:
         for key in ("gauges", "probes_deg"):
             if getattr(self, key) and self.speeds() is None:
-                raise refused((key,), f"{key} without speeds", "speeds_rad_s beside them")
+                raise refused(f"{key} without speeds", "speeds_rad_s beside them", key)
 
     @property
     def key_of_speeds(self) -> str:

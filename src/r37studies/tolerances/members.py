@@ -6,15 +6,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from pydantic import Field
-
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import VariedNumber
 from r37core.blade.definition import Shape
 from r37core.config import BladeSettings, ConfigError, Settings, blades_named, scenes_named, varied_settings
 from r37core.config.changed_numbers import ImpossibleValueError, changed_pair, check_known, nominal_value, scene_numbers
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
-from r37core.config.section import AllOrNames, ExtensionSection, FileName, LeftOut, left_out
+from r37core.config.section import AllOrNames, ExtensionSection, FileName, LeftOut, left_out, option
 from r37core.config.spread import MemberCount, SpreadEntry, Spreads
 from r37core.contact.scene import Scene
 from r37core.plans import paths
@@ -28,18 +26,14 @@ from r37studies.member_values import drawn, sobol_points
 class ToleranceSection(Spreads):
     """Distributions of numbers, and the sample drawn from them; both may be empty."""
 
-    members: MemberCount = Field(
-        default=32, description="Number of members, a power of two; a larger sample contains the smaller ones"
-    )
-    seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the sample")
+    members: MemberCount = option("Number of members, a power of two; a larger sample contains the smaller ones", 32)
+    seed: int = option("Seed of the sample", 0, ge=0, le=2**31)
     drawn_file: FileName | LeftOut = left_out(
         "Values of members (CSV) by names such as scene.damping_ratio, in place of distributions: members.csv of a calibration"
     )
-    blades: AllOrNames = Field(default="all", description="Blades with tolerances")
-    scenes: AllOrNames = Field(default="all", description="Scenes with tolerances")
-    largest_share: float = Field(
-        default=0.2, ge=1e-3, le=1, description="Largest share of the finest grid of adaptive speeds that a member runs"
-    )
+    blades: AllOrNames = option("Blades with tolerances", "all")
+    scenes: AllOrNames = option("Scenes with tolerances", "all")
+    largest_share: float = option("Largest share of the finest grid of adaptive speeds that a member runs", 0.2, ge=1e-3, le=1)
 
 
 SECTION = ExtensionSection("tolerances", ToleranceSection, ToleranceSection())
@@ -101,7 +95,7 @@ class Tolerances:
         blades, scenes = blades_named(settings, entry.blades), scenes_named(settings, entry.scenes)
         known = {name: scene_numbers(settings.scene_designs.entries[name]) for name in settings.scene_names}
         keys = (key for numbers in known.values() for key in numbers)
-        check_known(self.numbers, keys, settings.documents.config, (SECTION.name,))
+        check_known(self.numbers, keys, settings.document, (SECTION.name,))
         nominals = {
             (blade, scene): [self._nominal(number, blade, known[scene]) for number in self.numbers]
             for blade, scene in settings.speed_plans
@@ -158,7 +152,7 @@ class Tolerances:
             raise self._error(path, f"{who}: {text}; or a narrower tolerance") from None
 
     def _error(self, path: tuple[str, ...], text: str) -> ConfigError:
-        return self.settings.documents.config.error((SECTION.name, *path), text)
+        return self.settings.document.error((SECTION.name, *path), text)
 
     def _refusal(self, path: tuple[str, ...], value: str, allowed: str) -> ConfigError:
         return self._error(path, f"found {value}; allowed: {allowed}")
@@ -229,18 +223,19 @@ class Tolerances:
 
 def members_can_be_drawn(settings: Settings) -> None:
     """Tolerances name blades, scenes and numbers that are there, no member is impossible, and all can be planned."""
-    entry, documents, path = settings.section(SECTION), settings.documents, (SECTION.name,)
+    entry, document, path = settings.section(SECTION), settings.document, (SECTION.name,)
     names_are_there(settings, path, entry)
     tolerances = settings.made(Tolerances)
     # the configuration that a run keeps has the empty section written out
     if entry != type(entry)() and not tolerances.numbers:
-        raise documents.config.refusal(path, "no numbers", "some under of_scenes or of_blades")
+        raise document.refusal("no numbers", "some under of_scenes or of_blades", *path)
     number = entry.members * sum(len(settings.speed_plans[pair].certain) for pair in tolerances.pairs)
     if number > LARGEST_NUMBER_OF_SIMULATIONS:
-        raise documents.config.refusal(
-            (*path, "members"),
+        raise document.refusal(
             f"{number} simulations of members",
             f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run: fewer members, speeds, blades or scenes",
+            *path,
+            "members",
         )
     # draws them, and refuses what is impossible
     _ = tolerances.all

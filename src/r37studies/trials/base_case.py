@@ -3,9 +3,9 @@
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import Field
 
 from r37core.base.speeds import exact_text
 from r37core.base.varied_number import with_value
@@ -13,7 +13,7 @@ from r37core.config import ConfigError, Settings, checked_scene, plain, scenes_n
 from r37core.config.cross_checks import engine_order_is_known
 from r37core.config.document import ConfigRefusals
 from r37core.config.fidelity import Level
-from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, left_out, refused
+from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, Unique, either, left_out, option
 from r37core.config.settings import contact_nodes
 from r37core.plans.extension import Extension
 from r37studies.other_models import OWN_MESH, ModelChoice
@@ -36,20 +36,14 @@ CLEARANCE = "casing.clearance_m"
 def some_of(varied: Collection[str]) -> Any:
     """Type of a key that names some of what is varied, or all."""
 
-    def known(names: list[str] | str) -> list[str] | str:
-        for number, name in enumerate([] if names == "all" else names):
-            if name not in varied:
-                raise refused((number,), f"'{name}'", f"all, or some of {', '.join(varied)}")
-        return names
-
-    return Annotated[AllOrNames, AfterValidator(known)]
+    return either(Literal["all"], rows=Unique[Literal[tuple(varied)]])  # type: ignore[misc]
 
 
 class TrialsSection(Section):
     """Blade, scenes, level and speeds of the cases."""
 
     blade: Name | LeftOut = left_out("Blade; by default the first one of the run")
-    scenes: AllOrNames = Field(default="all", description="Scenes of the run")
+    scenes: AllOrNames = option("Scenes of the run", "all")
     base: Name | LeftOut = left_out("Fidelity level of all that is not varied; by default that of the run")
     engine_order: Annotated[int, Field(ge=1, le=100)] | LeftOut = left_out(
         "Crossing of 1B that the speeds lie about; by default the fastest one"
@@ -131,15 +125,15 @@ class BaseCase:
     def check_names(self) -> None:
         """ConfigError unless blade, scenes and base are in their files, and the order in the Campbell diagram."""
         settings, section, refusals = self.settings, self._section, ConfigRefusals()
-        documents, name = settings.documents, self.declared.name
+        name = self.declared.name
         for key, known, document in (
-            ("blade", settings.designs.entries, documents.blades),
-            ("scenes", settings.scene_designs.names, documents.scenes),
-            ("base", settings.levels, documents.levels),
+            ("blade", settings.designs.entries, settings.designs.document),
+            ("scenes", settings.scene_designs.names, settings.scene_designs.document),
+            ("base", settings.levels, settings.levels_document),
         ):
             named = getattr(section, key)
             names = [] if named in (None, "all") else named if isinstance(named, list) else [named]
-            refusals.of(documents.known, (name, key), names, known, document)
+            refusals.of(settings.document.known, (name, key), names, known, document)
         if section.engine_order:
             refusals.of(engine_order_is_known, settings, (name, "engine_order"), section.engine_order)
         refusals.tell()

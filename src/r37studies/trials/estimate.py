@@ -2,10 +2,8 @@
 
 from typing import Any
 
-from pydantic import Field
-
 from r37core.config import Settings
-from r37core.config.section import ExtensionSection, Section
+from r37core.config.section import ExtensionSection, Section, option
 from r37core.plans.extension import Extension
 from r37core.plans.extent import JOB_S, Extent, fixed_seconds
 from r37core.time_integration.speed_run import OF_RUNS
@@ -16,9 +14,7 @@ from .case import Case
 class EstimateSection(Section):
     """Cost of a whole sweep (snakemake estimate)."""
 
-    every: int = Field(
-        default=50, ge=1, le=1_000_000, description="One of this many speeds is run, at least five, of every blade and scene"
-    )
+    every: int = option("One of this many speeds is run, at least five, of every blade and scene", 50, ge=1, le=1_000_000)
 
 
 SECTION = ExtensionSection("estimate", EstimateSection, EstimateSection())

@@ -3,10 +3,8 @@
 from dataclasses import replace
 from typing import Any
 
-from pydantic import Field
-
 from r37core.config import Settings
-from r37core.config.section import ExtensionSection
+from r37core.config.section import ExtensionSection, option
 from r37core.plans.extent import Extent
 from r37core.time_integration.integrators import EXACT_MODAL
 
@@ -33,8 +31,8 @@ EXTREMES: Varied = {
 class StabilitySection(TrialsSection):
     """Runs at extremes of the parameters (snakemake stability)."""
 
-    extremes: some_of(EXTREMES) = Field(  # type: ignore[valid-type]
-        default="all", description="Extremes, such as lobes, bars or friction"
+    extremes: some_of(EXTREMES) = option(  # type: ignore[valid-type]
+        "Extremes, such as lobes, bars or friction", "all"
     )
 
 

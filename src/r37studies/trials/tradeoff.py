@@ -4,10 +4,9 @@ import re
 from typing import Any
 
 import numpy as np
-from pydantic import Field
 
 from r37core.config import Settings
-from r37core.config.section import ExtensionSection
+from r37core.config.section import ExtensionSection, option
 from r37core.plans.extent import Extent
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.speed_run import OF_RUNS
@@ -36,8 +35,8 @@ PARAMETERS: Varied = {
 class TradeoffSection(TrialsSection):
     """Effect and cost of every approximation (snakemake tradeoff)."""
 
-    parameters: some_of(PARAMETERS) = Field(  # type: ignore[valid-type]
-        default="all", description=f"Parameters that are varied, one at a time: {', '.join(PARAMETERS)}"
+    parameters: some_of(PARAMETERS) = option(  # type: ignore[valid-type]
+        "Parameters that are varied, one at a time", "all"
     )
 
 
