@@ -15,7 +15,7 @@ from r37core.contact.casing import Casing
 from r37core.contact.scene import Lining
 from r37core.fem.material import Material
 from r37core.rom.reduction_choice import ReductionChoice
-from r37core.rom.region_choice import EVERYWHERE
+from r37core.rom.region_choice import RegionChoice
 
 LINING = defaults.Lining(5e-3, 8e9, 2e9, 15e6, bar_width=0.035)
 ORIENTATION = defaults.Orientation("mm", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
@@ -29,7 +29,7 @@ JOBS_GET = [
     Material(180e9, 7800.0, 0.3),
     defaults.BoundaryChoice(),
     ReductionChoice((0.0, 900.0), 12, 1e-9, "rotating", 3, True),
-    replace(EVERYWHERE, maximum_z=0.1),
+    RegionChoice(maximum_z=0.1),
     RefinementChoice((Window("1B", 12, 0.0, 0.1, 5.0),), 0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
     SpeedPlan((900.0, 1000.0), (RefinedRange(900.0, 1.0, 50, 100),)),
     ORIENTATION,

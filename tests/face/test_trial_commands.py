@@ -9,7 +9,7 @@ import r37
 from r37.command import main
 from r37core.config import command_line_document, read_document
 from r37core.plans import extent
-from r37core.plans.extent import fixed_seconds, number_of, simulation_seconds, sizes
+from r37core.plans.extent import fixed_seconds, number_of, simulation_seconds
 from r37core.product.extensions import read_settings, whole_extent
 from r37core.results.table_file import read_table
 from r37studies.requirements import plan
@@ -49,7 +49,9 @@ def test_all_further_runs_are_counted_and_cost_what_they_are_long(root, tmp_path
     told = capsys.readouterr().out
     assert "simulations: sweep about 100, as results ask (26 at least), " in told
     assert ", run_ups 1, second_motions 10, " in told and "at most" not in told
-    assert "\n".join(sizes(settings, whole)) in told
+    lengths = 100 + 400 + whole["requirements"][pair].number + whole["second_motions"][pair].length + 2
+    seconds = fixed_seconds(settings, whole) + lengths * simulation_seconds(settings, pair) + 100 * extent.JOB_S
+    assert f"CPU time: about {seconds / 60:.1f} minutes" in told
 
 
 def test_time_is_that_of_the_steps_of_all_runs(root):

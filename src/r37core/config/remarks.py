@@ -19,8 +19,7 @@ def remarks_of_pipeline(settings: Settings) -> Iterator[str]:
     if settings.config.fidelity == "auto" and measured is not None:
         error = measured.error_of(bool(direct_on_points(settings)[0]))
         if error is not None:
-            share, cost = 100 * error, measured.cpu_s_per_run
-            yield f"fidelity auto: level {settings.fidelity_name}, measured error {share:g}%, {cost:g} CPU s per run"
+            yield f"fidelity auto: level {settings.fidelity_name}, measured error {100 * error:g}%"
     yield from remarks_on_input(settings)
     yield from remarks_on_unlike_contact(settings)
     yield from remarks_on_left_out_modes(elastic_casings(settings))

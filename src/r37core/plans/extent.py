@@ -49,13 +49,8 @@ class Runs:
 
     number: float
     fewest: float | None = None
-    length: float | None = None
-    models: int = 0
-
-    @property
-    def whole_length(self) -> float:
-        """Length of all together, in simulations of the sweep."""
-        return self.number if self.length is None else self.length
+    length: float = 0.0
+    models: float = 0.0
 
 
 Extent = Mapping[str, Mapping[Pair, Runs]]
@@ -78,21 +73,16 @@ def number_of(extent: Extent) -> int:
 
 def sizes(settings: Settings, extent: Extent) -> list[str]:
     """Number of simulations of each part, and the CPU time of all with models and pictures, as lines."""
-    parts = []
+    parts, seconds = [], fixed_seconds(settings, extent)
     for name, several in extent.items():
         number = sum(runs.number for runs in several.values())
         fewest = sum(runs.number if runs.fewest is None else runs.fewest for runs in several.values())
-        parts.append(
-            f"{name} {number}" if fewest == number else f"{name} about {number:.0f}, as results ask ({fewest} at least)"
-        )
-    seconds = fixed_seconds(settings, extent)
-    for name, several in extent.items():
-        job = JOB_S if name == SWEEP else 0.0
-        seconds += sum(
-            runs.whole_length * simulation_seconds(settings, pair) + runs.number * job for pair, runs in several.items()
-        )
-    time = f"{seconds:.0f} s" if seconds < 120.0 else f"{seconds / 60.0:.3g} minutes"
-    return [f"simulations: {', '.join(parts)}", f"CPU time: about {time}; as measured on blades of yours: snakemake estimate"]
+        as_asked = f"{name} about {number:.0f}, as results ask ({fewest} at least)"
+        parts.append(f"{name} {number}" if fewest == number else as_asked)
+        seconds += sum((runs.length or runs.number) * simulation_seconds(settings, pair) for pair, runs in several.items())
+        seconds += JOB_S * number if name == SWEEP else 0.0
+    time = f"CPU time: about {seconds / 60.0:.1f} minutes; as measured on blades of yours: snakemake estimate"
+    return [f"simulations: {', '.join(parts)}", time]
 
 
 def fixed_seconds(settings: Settings, extent: Extent) -> float:

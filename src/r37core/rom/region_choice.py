@@ -64,7 +64,3 @@ class RegionChoice:
             if inside.any():
                 chosen[name] = nodes[inside]
         return chosen
-
-
-EVERYWHERE = RegionChoice()
-"""Stress on the whole blade but for the clamped elements."""

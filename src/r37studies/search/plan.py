@@ -71,9 +71,7 @@ def simulations(settings: Settings) -> dict[Pair, Runs]:
     pairs = [(entry.blade, scene) for scene in designs.scenes]
     return {
         pair: Runs(
-            runs * most_runs(settings, *pair),
-            runs * len(settings.speed_plans[pair].certain),
-            models=entry.designs if pair == pairs[0] else 0,
+            runs * most_runs(settings, *pair), runs * len(settings.speed_plans[pair].certain), models=entry.designs / len(pairs)
         )
         for pair in pairs
     }

@@ -48,7 +48,7 @@ def cases(settings: Settings) -> dict[str, Case | str]:
 def values(settings: Settings, extent: Extent) -> dict[str, Any]:
     """Simulations of each part and case, as a rule, and how many of the case's they are worth; other CPU time (s)."""
     runs = {
-        part: {"__".join(pair): (runs.number, runs.whole_length) for pair, runs in several.items()}
+        part: {"__".join(pair): (runs.number, runs.length or runs.number) for pair, runs in several.items()}
         for part, several in extent.items()
     }
     return {"runs": runs, "jobs": JOB_S, "fixed": fixed_seconds(settings, extent)}

@@ -48,7 +48,7 @@ use rule step as calibration with:
     log:
         "<logs>/calibration.log",
     priority: 3
-    threads: lambda wildcards: sum(measured_plan.simulations(settings).values())
+    threads: lambda wildcards: sum(int(runs.number) for runs in measured_plan.simulations(settings).values())
     resources:
         mem_mb=lambda wildcards, threads: (memory_of_model + 300) * threads,
     params:

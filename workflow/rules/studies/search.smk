@@ -13,7 +13,7 @@ use rule step as search_designs with:
     log:
         "<logs>/search.log",
     priority: 3
-    threads: lambda wildcards: sum(search_plan.simulations(settings).values())
+    threads: lambda wildcards: sum(int(runs.number) for runs in search_plan.simulations(settings).values())
     resources:
         mem_mb=lambda wildcards, threads: (memory_of_model + 300) * threads,
     params:

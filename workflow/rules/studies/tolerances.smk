@@ -17,7 +17,7 @@ use rule step as tolerance_members with:
     log:
         "<logs>/tolerances/{blade}/{scene}/members.log",
     priority: 3
-    threads: lambda wildcards: tolerances.simulations[wildcards.blade, wildcards.scene]
+    threads: lambda wildcards: int(tolerances.runs[wildcards.blade, wildcards.scene].number)
     resources:
         mem_mb=lambda wildcards, threads: 500 * threads,
     params:
