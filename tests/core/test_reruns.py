@@ -145,6 +145,12 @@ def test_shapes_run_no_simulation(project):
     assert jobs["worst_shapes"] == {f"shapes/{blade}/stress_abradable" for blade in BLADES}
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}
+    file = project / "config/config.yaml"
+    finished = file.read_text()
+    overlay(project, "config.yaml", "operating: { idle_rad_s: 800, redline_rad_s: 1500 }")
+    # it is marked in figures over speed alone
+    assert "response_figure" in (again := set(planned_outputs(project))) and again.isdisjoint(SHAPES)
+    file.write_text(finished)
     overlay(project, "config.yaml", "shapes: { modes: 3 }")
     assert set(planned_outputs(project)) == SHAPES | {"configuration"}
 

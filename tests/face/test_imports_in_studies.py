@@ -48,14 +48,16 @@ def test_gauges_of_an_imported_mesh(mesh):
 @pytest.mark.parametrize(
     ("entry", "config", "signals", "modes"),
     [
-        (MESH, {}, ["Fan"], ["Fan"]),
-        (MATRICES, {}, ["Fan"], []),
-        (MESH, {"# shapes: {": "shapes: { imported: false }\nsignals: { imported: false }\n#"}, [], []),
-        (MESH, {"# shapes: {": "signals: { speeds_rad_s: [900] }\n#"}, ["Ref", "Fan"], ["Fan"]),
-        (MESH, {"# shapes: {": "signals: { blades: [Ref] }\n#"}, [], ["Fan"]),
+        (MESH, {}, ["Fan"], []),
+        (MATRICES, {"# shapes: {": "shapes: { imported: true }\n#"}, ["Fan"], []),
+        (MESH, {"# shapes: {": "shapes: { imported: true }\nsignals: { imported: false }\n#"}, [], ["Fan"]),
+        (MESH, {"# shapes: {": "signals: { speeds_rad_s: [900] }\n#"}, ["Ref", "Fan"], []),
+        (MESH, {"# shapes: {": "signals: { blades: [Ref] }\n#"}, [], []),
     ],
 )
-def test_a_blade_of_another_program_has_modes_and_signals_at_its_interactions(settings_with, entry, config, signals, modes):
+def test_a_blade_of_another_program_has_signals_at_its_interactions_and_modes_if_asked_for(
+    settings_with, entry, config, signals, modes
+):
     """The benchmark's own have none by default."""
     sweep = Sweep(settings_with(entry, config=config, blades=("Ref", "Fan")))
     wanted = targets(sweep)

@@ -243,7 +243,8 @@ def save(
     The same data give the same bytes. Not by Figure.savefig, which lays the figure out anew for each file and draws it twice.
     """
     figure.set_dpi(dots_per_inch or plt.rcParams["savefig.dpi"])
-    figure.draw_without_rendering()
+    if figure.axes and (layout := figure.get_layout_engine()):
+        layout.execute(figure)
     figure.set_layout_engine("none")
     for file in [files] if isinstance(files, str | Path) else files:
         with atomic_write(file) as partial:

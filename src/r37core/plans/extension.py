@@ -58,6 +58,7 @@ class Figure:
     `label`: name in the report; `caption`: what is seen, with names (blade, scene, family) in braces.
     `category`: in the report; without one its blade, or all of them.
     `offered`: files of extensions that it takes, too (product.targets.offered).
+    `over_speed`: whether an axis may be of speeds, on which the operating range is marked; else another range redraws nothing.
     """
 
     rule: str
@@ -70,6 +71,7 @@ class Figure:
     category: str = ""
     arguments: Callable[[Sweep], Mapping[str, Any]] = lambda _: {}
     offered: tuple[str, ...] = ()
+    over_speed: bool = True
 
     def targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """Files of the figure, as PNG and PDF."""

@@ -105,7 +105,7 @@ def drawing(code: CodeHashes, operating: Mapping[str, Any] | None, figure: Figur
         "draw": figure.draw,
         "of": _title_parts,
         "caption": lambda wildcards: caption.format(**dict(wildcards.items())),
-        **({"operating": operating} if operating else {}),
+        **({"operating": operating} if operating and figure.over_speed else {}),
         **arguments,
     }
 

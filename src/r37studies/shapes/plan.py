@@ -10,7 +10,7 @@ class ShapeSection(Section):
     """Pictures of modes and of the worst instants of interactions."""
 
     modes: int = option("Number of modes of each blade, at rest", 6, ge=1, le=30)
-    imported: bool = option("Modes of imported meshes also without a scene that asks for shapes", True)
+    imported: bool = option("Modes of imported meshes also without a scene that asks for shapes", False)
 
 
 SECTION = ExtensionSection("shapes", ShapeSection, ShapeSection())
@@ -41,6 +41,7 @@ EXTENSION = Extension(
             name="shapes_{blade}",
             runs=_blades,
             draw="r37studies.shapes.stills.draw_modes",
+            over_speed=False,
             files={"folder": MODE_SHAPES},
             label="first modes",
             caption="The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black "
@@ -51,6 +52,7 @@ EXTENSION = Extension(
             name="shapes_{blade}__{scene}",
             runs=_runs,
             draw="r37studies.shapes.stills.draw_worst_instants",
+            over_speed=False,
             files={"folder": WORST_SHAPES},
             label="worst instants",
             caption="Blade {blade} in scene {scene} at the worst instant of each interaction, displaced as the title says "
