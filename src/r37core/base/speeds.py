@@ -75,15 +75,11 @@ def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: floa
     overlap, more than LARGEST_NUMBER speeds and a speed given twice. A number inside a refining range is no repetition.
     """
     rad_s = RAD_S[unit]
-    numbers: list[float] = []
+    numbers = [float(entry) * rad_s for entry in entries if not isinstance(entry, Mapping)]
     speeds: list[float] = []
     refined: list[RefinedRange] = []
-    counted = 0.0
-    for entry in entries:
-        if not isinstance(entry, Mapping):
-            numbers.append(float(entry) * rad_s)
-            counted += 1
-            continue
+    counted = len(numbers)
+    for entry in (entry for entry in entries if isinstance(entry, Mapping)):
         start, stop, step = float(entry["start"]), float(entry["stop"]), float(entry.get("step", default_step / rad_s))
         if stop < start:
             raise SpeedError(f"found a range from {start:g} to {stop:g}; allowed: stop not below start")

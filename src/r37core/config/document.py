@@ -106,12 +106,13 @@ class Document:
             return model.model_validate(self.content)
         except ValidationError as error:
             explained = explain_all(error, self.content, model, self._starts_from_another)
-        texts = {path: text for path, _, text in explained}
-        places = {path: (*self._place(path)[:1], *path[1:]) for path in texts}
-        # what starts from a base may have a remedy at its end
-        of_base = {path: texts.get(places[path], "nothing") for path in texts if places[path] != path}
-        own = [each for each in explained if each[0] not in of_base or not each[2].startswith(of_base[each[0]])]
-        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in own)).tell()
+        texts, lines = {path: text for path, _, text in explained}, []
+        for path, key, text in explained:
+            place = (*self._place(path)[:1], *path[1:])
+            # after the reason of the base there may be a remedy
+            if place == path or not text.startswith(texts.get(place, "no reason")):
+                lines.append(str(self.error(path, text, key)))
+        ConfigRefusals(*lines).tell()
         raise AssertionError("a model refuses for a reason")
 
     def _starts_from_another(self, path: KeyPath) -> bool:

@@ -6,7 +6,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from pydantic_core import PydanticCustomError
+from pydantic import RootModel
 
 from r37core.base.speeds import exact_text
 from r37core.base.varied_number import BLADE, SCENE, numbers_in
@@ -19,7 +19,7 @@ from .document import Document
 from .messages import did_you_mean, single_line
 from .named_files import named_file
 from .scenes import SceneEntry
-from .section import Section, check_name, check_names, plain
+from .section import ByName, Section, plain
 from .varied import FAMILY_KEYS, LARGEST_FAMILY, Variation, is_family
 
 AnyEntry = BladeEntry | BladeKind | SceneEntry
@@ -92,21 +92,14 @@ def expanded_families(entries: Mapping[str, E], root: Path, document: Document) 
                 allowed = f"designs that are not named like another {kind_of(entry)}"
                 raise document.refusal(f"the design '{design}'", allowed, name)
             made[design] = design_entry(name, entry, values, design, document)
-    designs = Designs(made, families, document)
-    _check_names(designs)
-    return replace(designs, document=replace(document, sources={**document.sources, **designs.family_of}))
+    family_of = {design: name for name, family in families.items() for design in family}
+    document = replace(document, sources={**document.sources, **family_of})
+    replace(document, content=dict.fromkeys(made)).check(_NAMES)
+    return Designs(made, families, document)
 
 
-def _check_names(designs: Designs[E]) -> None:
-    """ConfigError for a design whose name is none, and for two names that differ in capitals only."""
-    family_of, name = designs.family_of, ""
-    try:
-        for name in family_of:
-            check_name(name)
-        check_names(designs.entries)
-    except PydanticCustomError as error:
-        (blamed,) = (error.context or {})["at"] or (name,)
-        raise designs.document.error((family_of.get(blamed, blamed),), str(error)) from None
+_NAMES = RootModel[ByName[Any]]
+"""Entries whose names alone are checked."""
 
 
 def _family(name: str, entry: Any, root: Path, document: Document) -> Family:

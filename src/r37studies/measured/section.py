@@ -59,9 +59,11 @@ class MeasurementSection(Section):
     limit: Width | LeftOut = left_out("Limit of first_above in SI units")
 
     def _check(self) -> None:
-        statistic = f"statistic {self.statistic}"
-        needs = {"gauge": (self.quantity, STRAIN), "probe_deg": (self.quantity, TIP_TIMING)}
-        for key, (owner, needing) in (needs | {"engine_order": (statistic, "statistic order")}).items():
+        for key, owner, needing in (
+            ("gauge", self.quantity, STRAIN),
+            ("probe_deg", self.quantity, TIP_TIMING),
+            ("engine_order", f"statistic {self.statistic}", "statistic order"),
+        ):
             if (getattr(self, key) is not None) != (needed := owner == needing):
                 joint, allowed = ("without", "beside it") if needed else ("with", "left out")
                 raise refused(f"{owner} {joint} {key}", f"{key} {allowed}", key)
