@@ -119,9 +119,13 @@ def write_stress(
 
     def content(speed: float) -> tuple[dict[str, np.ndarray], dict[str, float]]:
         displacement, stress = stress_of(mesh, model, material, instants[speed], speed)
+        tensors, rows = np.empty((stress.shape[1], 3, 3)), target.orientation.rows
+        for component, a, b in zip(stress, *_UPPER, strict=True):
+            tensors[:, a, b] = tensors[:, b, a] = component
         fields = {
             "displacement": target.orientation.vectors_to_file(displacement),
-            "stress": _turned(stress, target.orientation.rows).T,
+            # in the target's axes, whose parts in the blade's frame are the columns of the rows
+            "stress": (rows.T @ tensors @ rows)[:, *_UPPER],
             "von Mises stress": von_mises(stress),
         }
         return fields, {REGION_STRESS: instants[speed].largest}
@@ -156,14 +160,6 @@ def stress_of(
 def displacement_of(model: ReducedModel, coordinates: np.ndarray) -> np.ndarray:
     """Displacement of all nodes (m), shape (instants, nodes, 3), for coordinates as StressOperator takes them."""
     return np.moveaxis(_whole(model).fields[:, :, : coordinates.shape[1]] @ coordinates.T, 2, 0)
-
-
-def _turned(stress: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Stress components, shape (6, nodes), in the axes whose parts in the blade's frame are the columns of `rows`."""
-    tensors = np.empty((stress.shape[1], 3, 3))
-    for component, a, b in zip(stress, *_UPPER, strict=True):
-        tensors[:, a, b] = tensors[:, b, a] = component
-    return (rows.T @ tensors @ rows)[:, *_UPPER].T
 
 
 def _whole(model: ReducedModel) -> RecoveryNodes:

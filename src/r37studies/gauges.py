@@ -22,22 +22,15 @@ def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> t
         element, nodes, local, slopes, parameters = _surface_point(mesh, gauge)
         corners = mesh.points[nodes]
         tangents = slopes @ element.jacobian(corners[None], local)[0, 0].T
-        direction = _direction(tangents, parameters, gauge.angle)
+        # from the span towards the trailing edge, in the surface
+        chordwise, spanwise = np.linalg.inv(parameters) @ tangents
+        along = spanwise / np.linalg.norm(spanwise)
+        across = chordwise - along * (along @ chordwise)
+        direction = np.cos(gauge.angle) * along + np.sin(gauge.angle) * across / np.linalg.norm(across)
         gradients, _ = element.physical_gradients(corners[None], local)
         rows.append(np.einsum("a,aij,i->j", gradients[0, 0] @ direction, basis[nodes], direction, optimize=True))
         places.append(element.shape_functions(local)[0] @ corners)
     return np.array(rows), np.array(places)
-
-
-def _direction(tangents: np.ndarray, parameters: np.ndarray, angle: float) -> np.ndarray:
-    """Unit vector of the surface at `angle` (rad) from the span towards the trailing edge.
-
-    `tangents`, shape (2, 3): directions in the surface along which chord and span change by the rows of `parameters`.
-    """
-    chordwise, spanwise = np.linalg.inv(parameters) @ tangents
-    along = spanwise / np.linalg.norm(spanwise)
-    across = chordwise - along * (along @ chordwise)
-    return np.cos(angle) * along + np.sin(angle) * across / np.linalg.norm(across)
 
 
 def _surface_point(mesh: BladeMesh, gauge: Gauge) -> tuple[Element, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

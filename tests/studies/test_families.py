@@ -25,8 +25,7 @@ from r37core.results.columns import names
 from r37core.time_integration.status import RunStatus
 from r37studies.designs.compared import Compared
 from r37studies.designs.figures import draw_designs
-from r37studies.designs.maps import draw_design_map, some_above_yield
-from r37studies.designs.panel import contents
+from r37studies.designs.maps import contents, draw_design_map, some_above_yield
 from r37studies.designs.plan import EXTENSION, Families
 from r37studies.designs.table import MEASURES, compared_in, design_table
 from r37studies.run_ups.plan import RunUps

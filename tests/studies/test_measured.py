@@ -11,12 +11,12 @@ from r37core.config import ConfigError, Document
 from r37core.product.extensions import load_settings
 from r37core.stress.gauge import Gauge
 from r37studies.agreement import disagreements, disagrees, groups, words
-from r37studies.measured.comparison import compared
 from r37studies.measured.file import MOST_SPEEDS, read_points
 from r37studies.measured.measurement_plan import Measured
 from r37studies.measured.observed import statistic
 from r37studies.measured.points import Measurement, Points, feature_speed, turned_profile
 from r37studies.measured.section import MeasurementError, MeasurementSection
+from r37studies.measured.steps import compared
 
 READING = MeasurementSection(file="f", blade="A", scene="s", quantity="displacement_normal", uncertainty_percent=5)
 

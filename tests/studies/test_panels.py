@@ -9,7 +9,7 @@ from test_explorer import datasets, page  # noqa: F401
 import r37studies
 from r37core.explorer import page_parts
 from r37core.explorer.contents import explorer_contents
-from r37studies.designs.panel import contents as design_panel
+from r37studies.designs.maps import contents as design_panel
 
 STUDIES = Path(r37studies.__file__).parent
 

@@ -32,7 +32,7 @@ from r37studies.second_motions import steps
 from r37studies.second_motions.added import ranking_with_motions, summary_with_motions
 from r37studies.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
 from r37studies.second_motions.dataset import dwell_dataset, pair_motions
-from r37studies.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
+from r37studies.second_motions.dwelling import begun_as, dwell, dwells_at, finish_revolution, random_states, speeds_dwelt_on
 from r37studies.second_motions.figures import draw_second_motions
 from r37studies.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
 from r37studies.second_motions.plan import finished_runs, results
@@ -185,7 +185,7 @@ def test_after_a_run_that_diverged_the_sweep_starts_from_rest(contact, tmp_path)
     levels = levels_of(dict.fromkeys(MOTIONS, states))
     assert not levels.differ.any()
     run, several = sweep_of(contact, UP, hopeless), dict.fromkeys(MOTIONS, states)
-    rows = dwells_of(run, several, DwellChoice(revolutions=100, speeds=(1310.0,), starts=2))
+    rows = dwells_at(1310.0, run, several, DwellChoice(revolutions=100, starts=2))
     # none of the sweeps' motions is there, and the random ones diverge
     assert [row["start"] for row in rows] == [RANDOM, RANDOM]
     assert all(np.isnan(row["revolution_rms"]).all() for row in rows)
@@ -459,8 +459,8 @@ def test_a_dwell_begins_in_the_motion_that_it_is_named_after(contact, swept):
     """The largest at that speed or the smallest, each with its level."""
     _, states = swept
     found, place = levels_of(states), 1
-    choice = DwellChoice(revolutions=100, range_speeds=0, starts=0, speeds=(float(found.speeds[place]),))
-    high, low = dwells_of(sweep_of(contact, UP), states, choice)
+    choice = DwellChoice(revolutions=100, starts=0)
+    high, low = dwells_at(float(found.speeds[place]), sweep_of(contact, UP), states, choice)
     # judged by the motions of a range that is near, if there is one
     assert all(np.isfinite(row["level_high"]) == found.differ.any() for row in (high, low))
     size = {row["start"]: found.mean[MOTIONS.index(row["motion"]), place] for row in (high, low)}
@@ -505,13 +505,13 @@ def test_interrupted_dwells_go_on_from_the_next_speed(contact, swept, tmp_path, 
     files = SimpleNamespace(model=tmp_path / "contact.npz", states=[swept[0] / f"{motion}.npz" for motion in MOTIONS])
     asked, most = [], 3
 
-    def dwells_at(run, states, choice):
+    def dwells(speed, *of):
         if len(asked) == most:
             raise KeyboardInterrupt
-        asked.extend(choice.speeds)
-        return dwells_of(run, states, choice)
+        asked.append(speed)
+        return dwells_at(speed, *of)
 
-    monkeypatch.setattr(steps, "dwells_of", dwells_at)
+    monkeypatch.setattr(steps, "dwells_at", dwells)
     steps.dwell(files, SimpleNamespace(dwells=tmp_path / "whole.nc"), params)
     output = SimpleNamespace(dwells=tmp_path / "parts.nc")
     with pytest.raises(KeyboardInterrupt):

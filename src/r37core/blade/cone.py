@@ -18,13 +18,6 @@ def _sine_over(scale: float, angle: np.ndarray) -> np.ndarray:
     return angle * np.sinc(scale * angle / np.pi)
 
 
-def _arctan_over(scale: float, tangent: np.ndarray) -> np.ndarray:
-    """arctan(scale * tangent) / scale, finite when scale goes to zero."""
-    if abs(scale) < 1e-12:
-        return np.asarray(tangent)
-    return np.arctan(scale * np.asarray(tangent)) / scale
-
-
 @dataclass(frozen=True)
 class Cone:
     """A cone about the axis: radius at the inlet circle (m) and half angle (rad, positive where it widens)."""
@@ -47,7 +40,9 @@ class Cone:
         along, across = distance * np.cos(angle), distance * np.sin(angle)
         new_radius = np.hypot(radius + sine * along, sine * across)
         new_m = m + (2.0 * radius * along + sine * distance**2) / (radius + new_radius)
-        return new_m, theta + _arctan_over(sine, across / (radius + sine * along))
+        tangent = across / (radius + sine * along)
+        # of a cylinder the limit
+        return new_m, theta + (np.arctan(sine * tangent) / sine if abs(sine) >= 1e-12 else tangent)
 
     def unroll(self, m0, theta0, m, theta):
         """Distances on the unrolled cone from (m0, theta0) to (m, theta): along the ruling of the first, and normal to it."""

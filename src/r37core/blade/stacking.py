@@ -57,20 +57,16 @@ def plane_section_stacking(profiles: Sequence[Profile]) -> Placement:
     Raises BladeShapeError when a section cannot be cut or the iteration does not settle.
     """
     spans = np.array([p.parameters.span for p in profiles])
-    sectioned = _apart(spans)
+    # apart, with the first and the last
+    chosen = [0]
+    for i in range(1, len(spans) - 1):
+        if min(spans[i] - spans[chosen[-1]], spans[-1] - spans[i]) >= _NEAREST - 1e-9:
+            chosen.append(i)
+    sectioned = np.array([*chosen, len(spans) - 1])
     start = conical_stacking(profiles)
     moves = _moves_of_sections([profiles[i] for i in sectioned], Placement(start.axial[sectioned], start.rotation[sectioned]))
     weights = span_weights(spans[sectioned])(spans)
     return start + Placement(weights @ moves.axial, weights @ moves.rotation)
-
-
-def _apart(spans: np.ndarray) -> np.ndarray:
-    """Indices of spans at least _NEAREST apart, with the first and the last."""
-    chosen = [0]
-    for i in range(1, len(spans) - 1):
-        if spans[i] - spans[chosen[-1]] >= _NEAREST - 1e-9 and spans[-1] - spans[i] >= _NEAREST - 1e-9:
-            chosen.append(i)
-    return np.array([*chosen, len(spans) - 1])
 
 
 def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placement:

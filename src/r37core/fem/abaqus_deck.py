@@ -11,7 +11,10 @@ from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 def write_abaqus(mesh: BladeMesh, file: Path | str, material: Material, title: str) -> None:
     """Write a complete deck in SI units that asks for the first ten modes; `ccx mesh`, without the suffix, runs it."""
     lines = ["*HEADING", title, "*NODE, NSET=ALL_NODES"]
-    lines += [", ".join([str(i), *map(_twenty, point)]) for i, point in enumerate(mesh.points.tolist(), start=1)]
+    for i, point in enumerate(mesh.points.tolist(), start=1):
+        # exact where 20 characters suffice: CalculiX reads no more
+        texts = (repr(value) if len(repr(value)) <= 20 else f"{value:.17f}"[:20] for value in point)
+        lines.append(", ".join([str(i), *texts]))
     first = 1
     for name, elements in mesh.blocks.items():
         lines.append(f"*ELEMENT, TYPE={ELEMENTS[name].abaqus}, ELSET=BLADE")
@@ -41,11 +44,6 @@ def write_abaqus(mesh: BladeMesh, file: Path | str, material: Material, title: s
     ]
     with atomic_write(file) as partial:
         partial.write_text("\n".join(lines) + "\n", encoding="ascii")
-
-
-def _twenty(value: float) -> str:
-    """The number, exact where 20 characters suffice: CalculiX reads no more."""
-    return repr(value) if len(repr(value)) <= 20 else f"{value:.17f}"[:20]
 
 
 def _rows(numbers: list[int], width: int) -> list[str]:

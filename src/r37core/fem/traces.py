@@ -36,7 +36,10 @@ def edge_traces(points: np.ndarray, blocks: Mapping[str, np.ndarray], members: n
             local = [start, end] + ([element.edges[frozenset((start, end))]] if element.quadratic else [])
             inside = members[elements[:, local]].all(axis=1)
             edges.setdefault(len(local), []).append(elements[inside][:, local])
-    return [chain_trace(points, _each_once(np.concatenate(parts))) for parts in edges.values()]
+    several = [np.concatenate(parts) for parts in edges.values()]
+    # without those that another element has, too
+    firsts = [np.unique(np.sort(each[:, :2], axis=1), axis=0, return_index=True)[1] for each in several]
+    return [chain_trace(points, each[np.sort(first)]) for each, first in zip(several, firsts, strict=True)]
 
 
 def chain_trace(points: np.ndarray, edges: np.ndarray) -> Trace:
@@ -50,9 +53,3 @@ def chain_trace(points: np.ndarray, edges: np.ndarray) -> Trace:
         slopes = np.stack([along - 0.5, along + 0.5, -2.0 * along], axis=1)
     tangents = np.einsum("qn,end->eqd", slopes, points[edges])
     return Trace(edges, values, weights * np.linalg.norm(tangents, axis=2))
-
-
-def _each_once(edges: np.ndarray) -> np.ndarray:
-    """The edges without those that another element has, too."""
-    _, first = np.unique(np.sort(edges[:, :2], axis=1), axis=0, return_index=True)
-    return edges[np.sort(first)]

@@ -25,22 +25,15 @@ def write_mesh(mesh: BladeMesh, file: Path | str) -> None:
     file = Path(file)
     # meshio prints
     with atomic_write(file) as partial, redirect_stdout(StringIO()):
-        _WRITERS[file.suffix](mesh, partial)
-
-
-def _vtu(mesh: BladeMesh, file: Path) -> None:
-    marks = {name: mesh.mask(name).astype(np.int8) for name in NODE_SETS}
-    meshio.Mesh(mesh.points, dict(mesh.blocks), point_data=marks).write(file)
-
-
-def _msh(mesh: BladeMesh, file: Path) -> None:
-    cells, groups = _grouped(mesh)
-    data = {"gmsh:physical": groups, "gmsh:geometrical": groups}
-    names = {name: np.array([number, 3 if name == "blade" else 2]) for name, number in GROUPS.items()}
-    meshio.Mesh(mesh.points, cells, cell_data=data, field_data=names).write(file, file_format="gmsh22", binary=False)
-
-
-_WRITERS = {".vtu": _vtu, ".msh": _msh}
+        if file.suffix == ".vtu":
+            marks = {name: mesh.mask(name).astype(np.int8) for name in NODE_SETS}
+            meshio.Mesh(mesh.points, dict(mesh.blocks), point_data=marks).write(partial)
+            return
+        cells, groups = _grouped(mesh)
+        data = {"gmsh:physical": groups, "gmsh:geometrical": groups}
+        names = {name: np.array([number, 3 if name == "blade" else 2]) for name, number in GROUPS.items()}
+        grid = meshio.Mesh(mesh.points, cells, cell_data=data, field_data=names)
+        grid.write(partial, file_format="gmsh22", binary=False)
 
 
 def _grouped(mesh: BladeMesh) -> tuple[list[tuple[str, np.ndarray]], list[np.ndarray]]:

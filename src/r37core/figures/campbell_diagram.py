@@ -35,7 +35,13 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
         left.plot(speed, frequency, label=mode_label(str(name)), color=colour)
         crossing = campbell["crossing_speed"].sel(mode=name)
         left.plot(crossing, crossing * campbell["engine_order"] / (2.0 * np.pi), "o", color=colour, markersize=3.5)
-    _draw_casings(left, campbell, casings or {})
+    # those that scenes share once
+    scenes: dict[ElasticCasing, list[str]] = {}
+    for scene, casing in (casings or {}).items():
+        scenes.setdefault(from_plain(ElasticCasing, casing), []).append(scene)
+    for (elastic, names), colour in zip(scenes.items(), cycle(("#8C510A", "#762A83", "#01665E")), strict=False):
+        whose = "casing" if len(scenes) == 1 else f"casing of {', '.join(names)}"
+        _draw_casing(left, campbell, elastic, whose, colour)
     left.set_title(f"Campbell diagram, blade {title}")
     left.legend(loc="upper left", ncols=3, frameon=bool(casings), framealpha=0.9)
     style.rpm_axis(left)
@@ -47,17 +53,8 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
     return figure
 
 
-def _draw_casings(axes: Axes, campbell: xr.Dataset, casings: Mapping[str, Any]) -> None:
-    """Waves of elastic casings, those that scenes share once, and where named modes of the blade meet them."""
-    scenes: dict[ElasticCasing, list[str]] = {}
-    for scene, casing in casings.items():
-        scenes.setdefault(from_plain(ElasticCasing, casing), []).append(scene)
-    for (elastic, names), colour in zip(scenes.items(), cycle(("#8C510A", "#762A83", "#01665E")), strict=False):
-        whose = "casing" if len(scenes) == 1 else f"casing of {', '.join(names)}"
-        _draw_casing(axes, campbell, elastic, whose, colour)
-
-
 def _draw_casing(axes: Axes, campbell: xr.Dataset, casing: ElasticCasing, whose: str, colour: str) -> None:
+    """Waves of an elastic casing, and where named modes of the blade meet them."""
     speeds, highest = campbell["speed"].values, axes.get_ylim()[1]
     dashes = {"forward": (4.0, 2.0), "backward": (1.0, 1.5)}
     named: set[str] = set()

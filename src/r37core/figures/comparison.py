@@ -100,10 +100,15 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     first and the last are drawn; a row between them says how many are left out.
     """
     scenes = [name for name in dict.fromkeys(ranking["scene"]) if scenes is None or name in scenes]
-    tables = {scene: _shown_blades(ranking[ranking["scene"] == scene].set_index("blade")) for scene in scenes}
+    tables = {scene: ranking[ranking["scene"] == scene].set_index("blade") for scene in scenes}
+    half = _MOST_RANKED // 2
+    for scene, rows in tables.items():
+        if len(rows) > _MOST_RANKED:
+            # with a row of nothing between the first and the last
+            tables[scene] = rows.reindex([*rows.index[:half], f"({len(rows) - _MOST_RANKED} more)", *rows.index[-half:]])
     columns = min(len(scenes), 2)
-    rows = -(-len(scenes) // columns)
-    figure, panels = style.panels(rows, columns, 0.7 + rows * (0.5 + 0.34 * max(3, *map(len, tables.values()))))
+    lines = -(-len(scenes) // columns)
+    figure, panels = style.panels(lines, columns, 0.7 + lines * (0.5 + 0.34 * max(3, *map(len, tables.values()))))
     for axes in panels.flat[len(scenes) :]:
         axes.set_visible(False)
     contacts = ranking["contact"].unique()
@@ -119,20 +124,18 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     return figure
 
 
-def _shown_blades(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows of a scene by blade; of many the first and the last, with one of nothing between them."""
-    if len(rows) <= _MOST_RANKED:
-        return rows
-    half = _MOST_RANKED // 2
-    return rows.reindex([*rows.index[:half], f"({len(rows) - _MOST_RANKED} more)", *rows.index[-half:]])
-
-
 def _draw_bars(axes: Axes, rows: pd.DataFrame, *, named: bool) -> None:
     """Bars of one scene, the best above; with `named` contacts under the names of the blades."""
     positions = np.arange(float(len(rows)))
     for (name, label), height, alpha in zip(_LENGTHS.items(), (0.84, 0.66, 0.4), (0.15, 0.4, 1.0), strict=True):
         axes.barh(positions, rows[name], height, color="C0", alpha=alpha, label=label)
-    low, high, meaning = _range(rows)
+    # reach of the length in most revolutions, below and above; NaN if unknown
+    if f"{_IN_MOST}_low" in rows and rows[f"{_IN_MOST}_low"].notna().any():
+        reach = rows[_IN_MOST] - rows[f"{_IN_MOST}_low"], rows[f"{_IN_MOST}_high"] - rows[_IN_MOST]
+        (low, high), meaning = (each.clip(lower=0.0).values for each in reach), "nine tenths of the members"
+    else:
+        high, meaning = rows["length_most_revolutions_within_rad_s"].values, "in most revolutions, known to within"
+        low = np.minimum(high, rows[_IN_MOST].values)
     if np.isfinite(low).any():
         axes.errorbar(
             rows[_IN_MOST], positions, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
@@ -158,12 +161,3 @@ def _draw_bars(axes: Axes, rows: pd.DataFrame, *, named: bool) -> None:
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
     axes.set(xlim=(0.0, 1.45 * largest), ylim=(len(rows) - 0.5, -0.5))
-
-
-def _range(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, str]:
-    """Reach (rad/s) of the length in most revolutions, below and above, shape (blades,), NaN if unknown, and its meaning."""
-    if f"{_IN_MOST}_low" in rows and rows[f"{_IN_MOST}_low"].notna().any():
-        low, high = rows[_IN_MOST] - rows[f"{_IN_MOST}_low"], rows[f"{_IN_MOST}_high"] - rows[_IN_MOST]
-        return low.clip(lower=0.0).values, high.clip(lower=0.0).values, "nine tenths of the members"
-    within = rows["length_most_revolutions_within_rad_s"].values
-    return np.minimum(within, rows[_IN_MOST].values), within, "in most revolutions, known to within"

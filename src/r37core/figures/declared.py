@@ -18,11 +18,6 @@ def _stress(sweep: Sweep, wildcards: Any) -> str | list[str]:
     return STRESS if any(shown <= run.items() for run in runs) else []
 
 
-def _about_crossings(sweep: Sweep) -> dict[str, Any]:
-    interactions = sweep.settings.config.interactions
-    return {"below": interactions.below, "above": interactions.above, "drawn": {"blade": sweep.drawn["blade"]}}
-
-
 BLADES = "The blades, seen from the side, each in its colour of all figures. The arrow shows the rotation, LE the leading edge."
 """Caption of the blades' picture, which is rendered into its file."""
 
@@ -131,7 +126,10 @@ FIGURES = (
         "Over the speed above each blade's own crossing: rms of the leading edge, normal to the casing and tangential, and "
         "stress from the median of the later revolutions to the largest (thin), tinted above yield. Contact stiffens a blade, "
         "so peaks lie above the crossing. Crosses at the upper edge: runs that diverged.",
-        arguments=_about_crossings,
+        arguments=lambda sweep: {
+            **{name: getattr(sweep.settings.config.interactions, name) for name in ("below", "above")},
+            "drawn": {"blade": sweep.drawn["blade"]},
+        },
     ),
     Figure(
         rule="ranking_figure",

@@ -67,7 +67,16 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     scenes = [scene for scene in scenes if scene in longest]
     rows = rows[rows["scene"].isin(scenes)]
     rows = rows.assign(scale=rows.groupby("unit")["size"].transform("max"))
-    colours = _colours(campbell["blade"].values.astype(str).tolist(), rows)
+    blades, largest, owner = (
+        campbell["blade"].values.astype(str).tolist(),
+        rows.groupby("blade")["size"].max(),
+        dict[str, str](),
+    )
+    looks = style.blade_styles(blades)
+    # each colour is that of the blade with the largest circle that has it
+    for blade in sorted(blades, key=lambda blade: -largest.get(blade, -1.0)):
+        owner.setdefault(looks[blade]["color"], blade)
+    colours = {blade: look["color"] if owner[look["color"]] == blade else _OTHERS for blade, look in looks.items()}
     ran = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
     margin = max(0.03 * (ran[-1] - ran[0]), 0.01 * ran[-1])
     highest = np.nanmin([1.3 * float(campbell["frequency"].sel(mode="2B").max()), 1.15 * rows["frequency"].max()])
@@ -112,15 +121,6 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
         for scene, axes in panels.items():
             _label(axes, dangerous[dangerous["scene"] == scene], figure.dpi / 72.0, named=len(colours) > 1)
     return figure
-
-
-def _colours(blades: list[str], rows: pd.DataFrame) -> dict[str, str]:
-    """Colours of the blades, each colour for the one with the largest circle that has it; of other blades grey."""
-    looks, largest = style.blade_styles(blades), rows.groupby("blade")["size"].max()
-    owner: dict[str, str] = {}
-    for blade in sorted(blades, key=lambda blade: -largest.get(blade, -1.0)):
-        owner.setdefault(looks[blade]["color"], blade)
-    return {blade: look["color"] if owner[look["color"]] == blade else _OTHERS for blade, look in looks.items()}
 
 
 def _draw_modes(axes: Axes, campbell: xr.Dataset, names: Iterable[str]) -> None:

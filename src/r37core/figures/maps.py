@@ -45,7 +45,12 @@ def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: x
         return None
     speed = amplitude["speed"].values
     millimetres = 1e3 * amplitude.transpose("speed", "engine_order").values
-    order, values = largest_of_bins(amplitude["engine_order"].values, millimetres, _MOST_BINS)
+    orders = amplitude["engine_order"].values
+    # the largest value of each of not too many bins of orders
+    width = -(-len(orders) // _MOST_BINS)
+    whole = len(orders) // width * width
+    order = orders[:whole].reshape(-1, width).mean(axis=1)
+    values = millimetres[:, :whole].reshape(len(speed), -1, width).max(axis=2)
     largest = np.maximum(values[:, 1:].max(axis=1), 1e-12)
     strip.semilogy(speed, largest, linewidth=0.8)
     style.rpm_axis(strip, most_ticks=6)
@@ -104,13 +109,6 @@ def draw_cells(axes: Axes, across: np.ndarray, upward: np.ndarray, values: np.nd
     """
     # middles that are not evenly spaced give an AxesImage, too
     return cast(AxesImage, axes.pcolorfast(_edges(across), _edges(upward), values, **look))
-
-
-def largest_of_bins(order: np.ndarray, values: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
-    """Middles of at most `most` bins of engine orders, and the largest value in each, shape (speeds, bins)."""
-    width = -(-len(order) // most)
-    whole = len(order) // width * width
-    return order[:whole].reshape(-1, width).mean(axis=1), values[:, :whole].reshape(len(values), -1, width).max(axis=2)
 
 
 def _edges(middles: np.ndarray) -> np.ndarray:

@@ -46,7 +46,10 @@ def draw_response(
     if rms.sizes["speed"] > 1:
         panels[0].set_xlim(float(rms["speed"].min()), float(rms["speed"].max()))
     for axes in panels:
-        _mark_crossings(axes, campbell)
+        for order, speed in style.crossings_seen(axes, campbell):
+            axes.axvline(speed, color="0.5", linewidth=0.8, linestyle=":")
+            place, across = (speed, 0.98), ("data", "axes fraction")
+            axes.annotate(f"1B/{order} ", place, xycoords=across, fontsize=6, color="0.3", ha="right", va="top")
     crossings = "; dotted: 1B with engine orders" if campbell is not None else ""
     panels[0].set_title(f"blade {title}: leading edge over the last half of the run{crossings}")
     if stress is not None:
@@ -70,16 +73,14 @@ def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
         runs = rms.sel(scene=scene)
         response = runs[f"rms_{direction}"].sel(tip_point="leading_edge").dropna("speed")
         (line,) = axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=style.scene_words(scene))
-        _mark_motion(axes, 1e3 * response, runs.sel(speed=response["speed"].values), line.get_color())
+        # open markers where a run's motion has cut itself free, or still grows, or is beyond limits
+        drawn = runs.sel(speed=response["speed"].values)
+        look: dict[str, Any] = {"color": line.get_color(), "fillstyle": "none", "markersize": 4}
+        for name, state, marker, label in _MARKERS:
+            there = 1e3 * response[drawn[name].values == state] if name in runs else response[:0]
+            if there.size:
+                axes.plot(there["speed"], there, marker, label=label, **look)
         style.mark_diverged(axes, runs["speed"].values[runs["status"].values == RunStatus.DIVERGED])
-
-
-def _mark_motion(axes: Axes, curve: xr.DataArray, runs: xr.Dataset, colour: Any) -> None:
-    """Open markers on a curve over speed where a run's motion has cut itself free, or still grows, or is beyond limits."""
-    for name, state, marker, label in _MARKERS:
-        there = curve[runs[name].values == state] if name in runs else curve[:0]
-        if there.size:
-            axes.plot(there["speed"], there, marker, color=colour, fillstyle="none", markersize=4, label=label)
 
 
 def _draw_largest(axes: Axes, motions: xr.Dataset, name: str, factor: float) -> None:
@@ -99,10 +100,3 @@ def shade(axes: Axes, pair: xr.Dataset, colour: Any = "0.5", name: str = "motion
     for number, speed in enumerate(speeds[differ]):
         label = name if number == 0 else None
         axes.axvspan(speed - half, speed + half, color=colour, alpha=0.15, linewidth=0, zorder=0, label=label)
-
-
-def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:
-    for order, speed in style.crossings_seen(axes, campbell):
-        axes.axvline(speed, color="0.5", linewidth=0.8, linestyle=":")
-        place, across = (speed, 0.98), ("data", "axes fraction")
-        axes.annotate(f"1B/{order} ", place, xycoords=across, fontsize=6, color="0.3", ha="right", va="top")

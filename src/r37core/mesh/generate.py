@@ -36,7 +36,10 @@ def generate_mesh(blade: BladeMap, nodes: int, layers: int, tip_elements: int, m
         order = np.argsort(tags)
         tags = tags[order]
         plane = coordinates.reshape(-1, 3)[order]
-        parameters = _snapped(plane / np.array([chord_length, span_length, 1.0]) - np.array([0.0, 0.0, 1.0]))
+        parameters = plane / np.array([chord_length, span_length, 1.0]) - np.array([0.0, 0.0, 1.0])
+        # within round-off of a face, or of the camber surface, they lie on it
+        for value in (-1.0, 0.0, 1.0):
+            parameters[np.abs(parameters - value) < 1e-9] = value
         # elements are the right way out where the third parameter runs with the angle about the axis
         parameters[:, 2] *= blade.thickness_sign
         _, element_nodes = gmsh.model.mesh.getElementsByType(_PRISM15)
@@ -113,13 +116,6 @@ def _size_for(nodes: int, layers: int, tip_elements: int, chord_length: float, s
             "change nodes, tip_elements or layers of this fidelity level"
         )
     return float(best[1])
-
-
-def _snapped(parameters: np.ndarray) -> np.ndarray:
-    """Parameters with values within round-off of a face (or the camber surface) put exactly on it."""
-    for value in (-1.0, 0.0, 1.0):
-        parameters = np.where(np.abs(parameters - value) < 1e-9, value, parameters)
-    return parameters
 
 
 def _write_msh(mesh: BladeMesh, tags: np.ndarray, volume: int, file: Path) -> None:

@@ -56,7 +56,11 @@ def tip_contact(mesh: BladeMesh, boundary: BoundaryChoice) -> TipContact:
         nodes = line[_nearest(chord[line], positions)]
         weights = sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(chord)))
     else:
-        weights = _means(positions, chord, _line_traces(mesh, line))
+        traces = edge_traces(mesh.points, mesh.blocks, np.isin(np.arange(len(mesh.points)), line))
+        if sum((trace.values.shape[1] - 1) * len(trace.nodes) for trace in traces) != len(line) - 1:
+            # the elements have no edges there, as inside a face
+            traces = [chain_trace(mesh.points, np.stack([line[:-1], line[1:]], axis=1))]
+        weights = _means(positions, chord, traces)
     return TipContact(line, chord, weights, lengths)
 
 
@@ -101,13 +105,6 @@ def mean_positions(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
 def _nearest(chord: np.ndarray, positions: np.ndarray) -> np.ndarray:
     """Place of the node nearest to each of some positions, among nodes at fractions `chord`."""
     return np.abs(chord - positions[:, None]).argmin(axis=1)
-
-
-def _line_traces(mesh: BladeMesh, line: np.ndarray) -> list[Trace]:
-    """Edges of the elements along the line; where the elements have none there, as inside a face, straight pieces."""
-    traces = edge_traces(mesh.points, mesh.blocks, np.isin(np.arange(len(mesh.points)), line))
-    covered = sum((trace.values.shape[1] - 1) * len(trace.nodes) for trace in traces)
-    return traces if covered == len(line) - 1 else [chain_trace(mesh.points, np.stack([line[:-1], line[1:]], axis=1))]
 
 
 def _means(positions: np.ndarray, chord: np.ndarray, traces: list[Trace]) -> sp.csr_array:

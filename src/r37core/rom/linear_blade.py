@@ -47,24 +47,16 @@ class LinearBlade:
 
     def stiffness_terms(self, vectors: np.ndarray) -> dict[str, Any]:
         """Fields of the reduced model about its stiffness in a basis."""
-        matrices, static = self._matrices, projected(self._terms[0], vectors)
-        softening = projected(matrices.spin_softening(), vectors) if self._reduction.spin_softening else None
+        matrices, (stiffness, per_square), highest = self._matrices, self._terms, max(self._reduction.speeds)
+        static, middle, top = (
+            projected(sp.csr_array(stiffness + (share * highest) ** 2 * per_square) if share else stiffness, vectors)
+            for share in (0.0, 0.5, 1.0)
+        )
+        # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3; the theory makes it zero
+        quadratic = (16.0 * middle - 4.0 * top - 12.0 * static) / -3.0
         return {
             "stiffness": static,
             "geometric_stiffness": projected(matrices.geometric_stiffness(), vectors),
-            "spin_softening": softening,
-            "quadratic_residual": self._quadratic_residual(vectors, static) if max(self._reduction.speeds) > 0.0 else 0.0,
+            "spin_softening": projected(matrices.spin_softening(), vectors) if self._reduction.spin_softening else None,
+            "quadratic_residual": float(np.max(np.abs(quadratic)) / np.max(np.abs(static))) if highest > 0.0 else 0.0,
         }
-
-    def _quadratic_residual(self, vectors: np.ndarray, static: np.ndarray) -> float:
-        """Largest entry of the Omega^4 term (at the highest speed) of the reduced stiffness, over that of the stiffness.
-
-        The term is fitted through the stiffness reduced at three speeds, `static` among them; the linear theory makes it zero.
-        """
-        (stiffness, per_square), highest = self._terms, max(self._reduction.speeds)
-        middle, top = (
-            projected(sp.csr_array(stiffness + (share * highest) ** 2 * per_square), vectors) for share in (0.5, 1.0)
-        )
-        # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3
-        quadratic = (16.0 * middle - 4.0 * top - 12.0 * static) / -3.0
-        return float(np.max(np.abs(quadratic)) / np.max(np.abs(static)))

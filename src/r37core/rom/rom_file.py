@@ -90,7 +90,16 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
             content = getattr(recovery, part), about(units, f"{text} ({group})")
             data[f"{group}_{part}"] = ((f"{group}_node", *axes), *content)
     for name, region in model.stress_regions.items():
-        data |= _region_variables(_REGION + name, region)
+        prefix = _REGION + name
+        texts = {"description": region.description, "highest_frequency": region.highest_frequency}
+        texts |= {"integration_points": int(region.integration_points)}
+        evaluated = about("1", "places of the evaluated nodes, or integration points, among those of the elements") | texts
+        data[f"{prefix}_evaluated"] = f"{prefix}_evaluated_node", region.evaluated, evaluated
+        places = about("1", "chord, span and thickness of the evaluated nodes or integration points")
+        data[f"{prefix}_places"] = (f"{prefix}_evaluated_node", "parameter"), region.places, places
+        for kind, elements in region.elements.items():
+            dims, described = (f"{prefix}_{kind}", f"node_of_{kind}"), about("1", f"elements of type {kind} ({prefix})")
+            data[f"{prefix}_elements_{kind}"] = dims, elements, described
     for group, (field, _, table) in _PARTS.items():
         data |= _variables(f"{group}_", getattr(model, field), table)
     attributes = {
@@ -138,20 +147,6 @@ def _part(dataset: xr.Dataset, group: str, kind: type, table: Mapping[str, Any])
     """The part of the model whose variables begin with `group`; None where it has none."""
     values = {name: dataset[f"{group}_{name}"].values for name in table if f"{group}_{name}" in dataset}
     return kind(**{name: value if value.ndim else float(value) for name, value in values.items()}) if values else None
-
-
-def _region_variables(group: str, region: StressRegion) -> dict[str, tuple[Any, ...]]:
-    """Variables of a region beside its nodes."""
-    texts = {"description": region.description, "highest_frequency": region.highest_frequency}
-    texts |= {"integration_points": int(region.integration_points)}
-    evaluated = about("1", "places of the evaluated nodes, or integration points, among those of the elements") | texts
-    variables: dict[str, tuple[Any, ...]] = {f"{group}_evaluated": (f"{group}_evaluated_node", region.evaluated, evaluated)}
-    places = about("1", "chord, span and thickness of the evaluated nodes or integration points")
-    variables[f"{group}_places"] = (f"{group}_evaluated_node", "parameter"), region.places, places
-    for kind, elements in region.elements.items():
-        dims = f"{group}_{kind}", f"node_of_{kind}"
-        variables[f"{group}_elements_{kind}"] = dims, elements, about("1", f"elements of type {kind} ({group})")
-    return variables
 
 
 def _region(dataset: xr.Dataset, group: str) -> StressRegion:

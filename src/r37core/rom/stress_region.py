@@ -67,7 +67,13 @@ class RegionMaker:
             if len(evaluated) > _MOST_POINTS:
                 where = replace(choice, highest_frequency=np.inf)
                 if where not in every_mode:
-                    every_mode[where] = self._stress_of_modes(elements, choice.integration_points)
+                    # of the lowest modes, then of rotation's shapes
+                    nodes = _occurring(elements)
+                    moved = self.recovery(nodes)
+                    fields = np.concatenate([moved.basis @ self.modes[:, :_MOST_MODES], moved.rotation_shapes], axis=2)
+                    local = {name: np.searchsorted(nodes, block) for name, block in elements.items()}
+                    stress = recovered_stress(local, moved.points, fields, self.material, choice.integration_points)
+                    every_mode[where] = deviatoric(stress)
                 evaluated = evaluated[self._candidates(every_mode[where], choice.highest_frequency)]
             made[name] = self._region(choice, elements, evaluated)
         return made
@@ -89,16 +95,10 @@ class RegionMaker:
             integration_points=inside,
         )
 
-    def _stress_of_modes(self, elements: dict[str, np.ndarray], integration_points: bool) -> np.ndarray:
-        """Deviatoric stress of the lowest modes, then of rotation's shapes, shape (5, points, fields), float32."""
-        nodes = _occurring(elements)
-        moved = self.recovery(nodes)
-        fields = np.concatenate([moved.basis @ self.modes[:, :_MOST_MODES], moved.rotation_shapes], axis=2)
-        local = {name: np.searchsorted(nodes, block) for name, block in elements.items()}
-        return deviatoric(recovered_stress(local, moved.points, fields, self.material, integration_points))
-
     def _candidates(self, stress: np.ndarray, highest_frequency: float) -> np.ndarray:
-        """Places of the points that have the largest stress in some of many motions; stress as above.
+        """Places of the points that have the largest stress in some of many motions.
+
+        `stress`, shape (5, points, fields), float32: deviatoric, of the lowest modes, then of rotation's shapes.
 
         Motions are drawn by chance, so that every mode can be the one that decides.
         """

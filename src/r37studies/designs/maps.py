@@ -1,4 +1,4 @@
-"""Designs as a map over two numbers that vary: how long they are above yield, and where requirements are met."""
+"""Designs as a map over two numbers that vary, in a figure and in the explorer: how long above yield, and what they meet."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -11,10 +11,11 @@ from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.figure import Figure
 
 from r37core.base.plain import from_plain
+from r37core.explorer.contents import packed
 from r37core.figures import style
 
 from .compared import Compared, axis_of_key
-from .table import length_column
+from .table import compared_in, length_column
 
 
 def draw_design_map(
@@ -71,6 +72,23 @@ def measured(rows: pd.DataFrame, verdict: pd.DataFrame | None) -> tuple[pd.DataF
             label = "largest share of the Goodman line"
             return rows.merge(tried, on=["blade", "scene"]), "value_highest", label, 2
     return rows, column, f"above yield in most revolutions{' in operation' if 'operating' in column else ''} (rad/s)", 0
+
+
+def contents(designs: pd.DataFrame, verdict: pd.DataFrame | None = None) -> list[dict[str, object]]:
+    """A map of each family of two keys: its `family`, `axes`, `other` (blade or scene, of which each has a map), and cells.
+
+    `axes`: label and factor of each key; `cells`: blade, scene and values of the keys; `values`, `label` and `digits`: those
+    of the figure (measured), `some`: some_above_yield, by cell.
+    """
+    maps: list[dict[str, object]] = []
+    for name, compared in compared_in(designs).items():
+        if len(compared.keys) == 2:
+            rows, column, label, digits = measured(designs[designs["family"] == name], verdict)
+            cells = rows[["blade", "scene", *compared.keys]].to_numpy().tolist()
+            values, some = packed(rows[column].to_numpy(float)), packed(some_above_yield(rows).to_numpy())
+            about = {"family": name, "axes": [axis_of_key(key) for key in compared.keys], "other": compared.other}
+            maps.append(about | {"cells": cells, "values": values, "some": some, "label": label, "digits": digits})
+    return maps
 
 
 def _grid(rows: pd.DataFrame, keys: Sequence[str], column: str, together: str) -> np.ndarray:

@@ -143,6 +143,6 @@ EXTENSION = Extension(
     ),
     closing="r37studies.designs.table.closing",
     panel=Panel(
-        TABLE, "r37studies.designs.panel.contents", "r37studies/designs/panel.js", shown=lambda sweep: bool(_of(sweep).maps)
+        TABLE, "r37studies.designs.maps.contents", "r37studies/designs/panel.js", shown=lambda sweep: bool(_of(sweep).maps)
     ),
 )

@@ -53,9 +53,16 @@ def design_table(
     for (blade, scene), error in pairs.items():
         own = [families[kind][design] for kind, design in ((BLADE, blade), (SCENE, scene)) if design in families[kind]]
         varied = {"family": "__".join(own), **variables["blade"].get(blade, {}), **variables["scene"].get(scene, {})}
-        structure = {"mass_kg": masses.get(blade, np.nan)} | _structure(datasets["campbell"].sel(blade=blade))
+        structure, campbell = {"mass_kg": masses.get(blade, np.nan)}, datasets["campbell"].sel(blade=blade)
+        for mode in (FIRST_BENDING, FIRST_TORSION):
+            structure[f"frequency_{mode.lower()}_hz"] = float(campbell["frequency"].sel(mode=mode).isel(speed=0))
+            structure[f"clearance_loss_{mode.lower()}_m"] = -float(campbell["dynamic_clearance"].sel(mode=mode).min())
+        of_pair = (interactions["blade"] == blade) & (interactions["scene"] == scene)
+        bending = interactions[of_pair & (interactions["mode"] == FIRST_BENDING)]
+        # of the strongest interaction; NaN without one
+        shift = bending["shift_rad_s"].get(bending["peak_rms_tangential_m"].idxmax()) if len(bending) else np.nan
         measures = measures_of(datasets, blade, scene, operating, error)
-        rows.append({"blade": blade, "scene": scene, **varied, **structure, **measures, **_shift(blade, scene, interactions)})
+        rows.append({"blade": blade, "scene": scene, **varied, **structure, **measures, "shift_1b_rad_s": shift})
     designs = [values for kind in variables.values() for values in kind.values()]
     keys = list(dict.fromkeys(key for values in designs for key in values))
     return pd.DataFrame(rows, columns=[*_NAMES, *keys, *names(MEASURES), *(names(OPERATING) if operating else ())])
@@ -81,22 +88,6 @@ def length_column(table: pd.DataFrame) -> str:
     """Column of the length above yield in most revolutions: in operation, where it is known there."""
     inside = "length_most_revolutions_operating_rad_s"
     return inside if inside in table and table[inside].notna().any() else RANKED_BY[0]
-
-
-def _structure(campbell: xr.Dataset) -> dict[str, float]:
-    values = {}
-    for mode in (FIRST_BENDING, FIRST_TORSION):
-        values[f"frequency_{mode.lower()}_hz"] = float(campbell["frequency"].sel(mode=mode).isel(speed=0))
-        values[f"clearance_loss_{mode.lower()}_m"] = -float(campbell["dynamic_clearance"].sel(mode=mode).min())
-    return values
-
-
-def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, float]:
-    """How far the strongest interaction of 1B lies from its crossing (rad/s); NaN without one."""
-    own = (interactions["blade"] == blade) & (interactions["scene"] == scene)
-    bending = interactions[own & (interactions["mode"] == FIRST_BENDING)]
-    shift = bending["shift_rad_s"].get(bending["peak_rms_tangential_m"].idxmax()) if len(bending) else np.nan
-    return {"shift_1b_rad_s": shift}
 
 
 def closing(results: Path) -> str:

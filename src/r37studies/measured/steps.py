@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -21,10 +22,9 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .calibration import Calibration
 from .calibration_plan import Calibrated
-from .comparison import compared
 from .evaluation import observed_blade, simulate
 from .measurement_plan import Measured
-from .points import Measurement
+from .points import VALUES, Measurement
 from .posterior import calibrated_scenes, calibration_dataset, number_table
 
 _SLIGHTLY_MORE = 1.001
@@ -57,6 +57,46 @@ def compare(input: Any, output: Any, params: Any) -> None:
     simulated = {name: numbers for file in as_list(input.observed) for name, numbers in read_json(file).items()}
     errors = dict(zip(map(tuple, params.pairs), params.errors, strict=True))
     write_table(compared(from_plain(dict[str, Measurement], params.measurements), simulated, errors), output.table, digits=6)
+
+
+def compared(
+    measurements: Mapping[str, Measurement], simulated: Mapping[str, Mapping[str, Any]], errors: Mapping[tuple[str, str], float]
+) -> pd.DataFrame:
+    """Table measured.csv: a row for each point of all measurements.
+
+    `simulated`: of each measurement `values` at its points, None where a run diverged, `scatter` of these by a small change of
+    friction, and a `remark`. `errors`: relative error by mesh and step of each blade and scene, NaN where it is not known.
+    """
+    rows = [_rows(each, simulated[name], errors[each.blade, each.scene]) for name, each in measurements.items()]
+    return pd.concat(rows, ignore_index=True)
+
+
+def _rows(measurement: Measurement, simulated: Mapping[str, Any], error: float) -> pd.DataFrame:
+    points, known = measurement.points, np.array([value is not None for value in simulated["values"]])
+    values, scatter = (np.nan_to_num(np.array(simulated[name], float)) for name in ("values", "scatter"))
+    # the level's error is one of amplitudes, not of speeds
+    share = np.nan_to_num(error) if measurement.speed_of == VALUES else 0.0
+    uncertainty = np.where(known, np.hypot(share * values, scatter), 0.0)
+    values = np.where(known, values, math.inf)
+    both = np.hypot(points.deviations, uncertainty)
+    return pd.DataFrame(
+        {
+            "blade": measurement.blade,
+            "scene": measurement.scene,
+            "quantity": measurement.title,
+            "file": measurement.file,
+            "speed_rad_s": points.speeds,
+            "angle_deg": np.degrees(points.angles) if points.angles else np.nan,
+            "engine_order": [order or None for order in points.orders],
+            "measured": points.values,
+            "measured_uncertainty": points.deviations,
+            "simulated": values,
+            "simulated_uncertainty": uncertainty,
+            "unit": measurement.unit,
+            "difference_over_uncertainty": (values - np.array(points.values)) / both,
+            "remark": simulated["remark"],
+        }
+    )
 
 
 def calibrate(input: Any, output: Any, params: Any) -> None:

@@ -103,7 +103,13 @@ class RunUpIntegration:
             increments = constants.increments
             assert increments is not None
             if modes is not None:
-                self._project(problem.blade.modes.T @ modes)
+                # an elastic casing's modes, which come after the blade's, stay as they are
+                turned, blade = problem.blade.modes.T @ modes, modes.shape[1]
+                state.displacement, self.velocity = (
+                    np.concatenate([turned @ values[:blade], values[blade:]]) for values in (state.displacement, self.velocity)
+                )
+                # there may be more of them or fewer, where the fastest are left out
+                state.increment = np.zeros_like(state.displacement)
                 problem.contact.put_followers(state.displacement, self.velocity)
             modes = problem.blade.modes
             simulation.engine.take(segment_indices[0])
@@ -137,13 +143,3 @@ class RunUpIntegration:
                 )
                 if record.diverged:
                     return
-
-    def _project(self, turned: np.ndarray) -> None:
-        """Take displacement and velocity over into other modes; `turned`, shape (new modes, modes): the old in the new ones."""
-        before = turned.shape[1]
-        # an elastic casing's modes, which come after the blade's, stay as they are
-        self.state.displacement, self.velocity = (
-            np.concatenate([turned @ values[:before], values[before:]]) for values in (self.state.displacement, self.velocity)
-        )
-        # there may be more of them or fewer, where the fastest are left out
-        self.state.increment = np.zeros_like(self.state.displacement)

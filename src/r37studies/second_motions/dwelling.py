@@ -38,39 +38,34 @@ def speeds_dwelt_on(levels: MotionLevels, choice: DwellChoice) -> list[float]:
     return sorted(speeds)
 
 
-def dwells_of(carried: CarriedSweep, states: Mapping[str, SweptStates], choice: DwellChoice) -> list[dict[str, Any]]:
-    """Dwells at all speeds that are dwelt on: from the largest and the smallest motion, and from random states.
+def dwells_at(
+    speed: float, carried: CarriedSweep, states: Mapping[str, SweptStates], choice: DwellChoice
+) -> list[dict[str, Any]]:
+    """Dwells at a speed (rad/s): from the largest and the smallest motion, and from random states.
 
     Each with its `speed`, its `start`, and the levels of the two motions: those at the nearest speed at which motions differ,
     NaN where that is more than NEAR steps away.
     """
     levels, rows = levels_of(states), []
-    for speed in speeds_dwelt_on(levels, choice):
-        about = {"speed": speed, "lined": int(carried.scene.lined)}
-        about |= _levels_near(levels, speed, NEAR * carried.sweep.step)
-        simulation, size = Simulation(carried.model, speed, carried.scene.grown, carried.unrecorded_choice), 0.0
-        nearest = int(np.argmin(np.abs(levels.speeds - speed)))
-        for start, places in ((HIGH, levels.high), (LOW, levels.low)):
-            motion = MOTIONS[places[nearest]]
-            begun = begun_as(carried, states, motion, nearest, simulation)
-            if begun is not None:
-                size = max(size, float(np.linalg.norm(PhaseSpace(simulation.problem).coordinates(begun[1]))))
-                rows.append({**about, "start": start, "motion": motion, **dwell(*begun, choice.revolutions)})
-        for number, state in enumerate(random_states(simulation.problem, size, choice.starts, choice.seed), 1):
-            finish_revolution(simulation, state)
-            motion = f"random_{number}"
-            rows.append({**about, "start": RANDOM, "motion": motion, **dwell(simulation, state, choice.revolutions)})
+    distances = np.abs(levels.speeds - speed)
+    nearest, apart = int(np.argmin(distances)), np.where(levels.differ, distances, np.inf)
+    place, largest_and_smallest = int(np.argmin(apart)), {HIGH: levels.high, LOW: levels.low}
+    about = {"speed": speed, "lined": int(carried.scene.lined)}
+    for start, motions in largest_and_smallest.items():
+        is_near = apart[place] <= NEAR * carried.sweep.step
+        about[f"level_{start}"] = float(levels.mean[motions[place], place]) if is_near else np.nan
+    simulation, size = Simulation(carried.model, speed, carried.scene.grown, carried.unrecorded_choice), 0.0
+    for start, motions in largest_and_smallest.items():
+        motion = MOTIONS[motions[nearest]]
+        begun = begun_as(carried, states, motion, nearest, simulation)
+        if begun is not None:
+            size = max(size, float(np.linalg.norm(PhaseSpace(simulation.problem).coordinates(begun[1]))))
+            rows.append({**about, "start": start, "motion": motion, **dwell(*begun, choice.revolutions)})
+    for number, state in enumerate(random_states(simulation.problem, size, choice.starts, choice.seed), 1):
+        finish_revolution(simulation, state)
+        motion = f"random_{number}"
+        rows.append({**about, "start": RANDOM, "motion": motion, **dwell(simulation, state, choice.revolutions)})
     return rows
-
-
-def _levels_near(levels: MotionLevels, speed: float, distance: float) -> dict[str, float]:
-    """Levels (m) of the largest and the smallest motion at the nearest speed at which motions differ; NaN without one."""
-    distances = np.where(levels.differ, np.abs(levels.speeds - speed), np.inf)
-    place = int(np.argmin(distances))
-    near = {f"level_{name}": places[place] for name, places in ((HIGH, levels.high), (LOW, levels.low))}
-    return {
-        name: float(levels.mean[motion, place]) if distances[place] <= distance else np.nan for name, motion in near.items()
-    }
 
 
 def begun_as(

@@ -2,7 +2,6 @@
 
 import pandas as pd
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.figures import style
@@ -29,7 +28,13 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, b
     panels = grid[:, 0]
     left = iter(panels)
     axes = next(left)
-    _draw_motions(axes, pair)
+    for motion in MOTIONS:
+        mean, scatter = (1e3 * pair[name].sel(motion=motion) for name in ("motion_mean", "motion_scatter"))
+        label = "from rest" if motion == REST else f"carried {motion}"
+        if pair["revolutions"].max() > pair["revolutions"].min():
+            label += f", {float(pair['revolutions'].sel(motion=motion)):g} revolutions"
+        axes.plot(pair["speed"], mean, LINES[motion], color=COLOURS[motion], label=label, linewidth=1.0)
+        axes.fill_between(pair["speed"], mean - scatter, mean + scatter, color=COLOURS[motion], alpha=0.15, linewidth=0)
     axes.set_ylabel("rms (mm)")
     for kind, marker in MARKERS.items():
         those = blade_dwells[blade_dwells["high"] == str(kind)]
@@ -61,13 +66,3 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, b
     style.rpm_axis(panels[0])
     style.legend_below(figure, panels, 4)
     return figure
-
-
-def _draw_motions(axes: Axes, pair: xr.Dataset) -> None:
-    for motion in MOTIONS:
-        mean, scatter = (1e3 * pair[name].sel(motion=motion) for name in ("motion_mean", "motion_scatter"))
-        label = "from rest" if motion == REST else f"carried {motion}"
-        if pair["revolutions"].max() > pair["revolutions"].min():
-            label += f", {float(pair['revolutions'].sel(motion=motion)):g} revolutions"
-        axes.plot(pair["speed"], mean, LINES[motion], color=COLOURS[motion], label=label, linewidth=1.0)
-        axes.fill_between(pair["speed"], mean - scatter, mean + scatter, color=COLOURS[motion], alpha=0.15, linewidth=0)

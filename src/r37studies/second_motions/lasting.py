@@ -41,22 +41,22 @@ def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float, *, 
     motion. A lining does not grow back: a motion of a `lined` blade is lasting if it is held at the end of its dwell.
     """
     held = {start: [is_high(each, high, low) for each in several] for start, several in rms.items()}
+    own = {HIGH: True, LOW: False}
     # a motion may be left before the first revolution that counts
-    begun = {HIGH: [np.append(True, part) for part in held[HIGH]], LOW: [np.append(False, part) for part in held[LOW]]}
+    begun = {start: [np.append(first, part) for part in held[start]] for start, first in own.items()}
     left, times, ended = {}, {}, [bool(part[-1]) for part in held[RANDOM] if len(part)]
     for start in begun:
         if lined:
             # up to the first time that it is left
-            parts = [np.logical_and.accumulate(part == (start == HIGH)) for part in begun[start]]
+            parts = [np.logical_and.accumulate(part == own[start]) for part in begun[start]]
         else:
-            dwells = (*begun[HIGH], *begun[LOW], *map(_settled, held[RANDOM]))
-            parts = [part == (start == HIGH) for part in dwells]
+            parts = [part == own[start] for part in (*begun[HIGH], *begun[LOW], *map(_settled, held[RANDOM]))]
         left[start] = sum(np.count_nonzero(part[:-1] & ~part[1:]) for part in parts)
         revolutions = sum(map(np.count_nonzero, parts)) - len(begun[start])
         times[start] = revolutions / left[start] if left[start] else np.inf if revolutions else np.nan
     verdicts, lost = {}, {start: not rms[start] or any(np.isnan(each).any() for each in rms[start]) for start in begun}
     for start, other in ((HIGH, LOW), (LOW, HIGH)):
-        lasts = all(part[-1] == (start == HIGH) for part in begun[start]) if lined else not left[start]
+        lasts = all(part[-1] == own[start] for part in begun[start]) if lined else not left[start]
         if lined and lasts:
             times[start] = np.inf
         switching = left[other] and not lined

@@ -51,7 +51,12 @@ def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: floa
         run = read_speed(each)
         # without its other numbers: those of all speeds are in memory together
         kept = {name: run[name] for name in ("status", *motion_names(run))}
-        runs.append(kept | {"revolution_rms": _counted(run)})
+        # of the revolutions in the run's statistic; NaN of one that diverged, and where it ended before there were as many
+        end, counted = int(run["statistic_end"]), np.full(int(run["statistic_revolutions"]), np.nan)
+        if int(run["status"]) == RunStatus.COMPLETED:
+            last = run["revolution_rms"][:end][-len(counted) :]
+            counted[len(counted) - len(last) :] = last
+        runs.append(kept | {"revolution_rms": counted})
     arrays = {name: np.array([run[name] for run in runs]) for name in runs[0]}
     if END_WEAR in arrays:
         arrays[END_WEAR] = arrays[END_WEAR].astype(np.float32)
@@ -59,15 +64,6 @@ def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: floa
     with atomic_write(file) as partial:
         arrays |= {"speed": np.array(speeds), "revolution_rms": rms, "clearance": np.array(clearance)}
         np.savez_compressed(partial, allow_pickle=False, **arrays)
-
-
-def _counted(run: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Rms (m) of the revolutions in a run's statistic, shape (revolutions,); NaN of one that diverged."""
-    end, count = int(run["statistic_end"]), int(run["statistic_revolutions"])
-    if int(run["status"]) != RunStatus.COMPLETED:
-        return np.full(count, np.nan)
-    last = run["revolution_rms"][:end][-count:]
-    return np.concatenate([np.full(count - len(last), np.nan), last])
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,6 @@
 """Steps of the workflow (docs/architecture.md): a sweep with the state carried on, dwells, and the join of all of them."""
 
 import shutil
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -22,7 +21,7 @@ from r37core.stress.statistic import Strengths
 
 from .choice import DOWN, MOTIONS, REST, DwellChoice, SweepChoice
 from .dataset import dwell_dataset, pair_motions
-from .dwelling import dwells_of, speeds_dwelt_on
+from .dwelling import dwells_at, speeds_dwelt_on
 from .states import levels_of, read_states, write_states
 from .sweeping import CarriedSweep
 from .tables import dwell_table, range_table
@@ -64,8 +63,7 @@ def dwell(input: Any, output: Any, params: Any) -> None:
     parts.mkdir(parents=True, exist_ok=True)
 
     def write(speed: float, file: Path) -> None:
-        rows = dwells_of(run, states, replace(choice, range_speeds=0, speeds=(speed,)))
-        write_dataset(dwell_dataset(rows, choice.revolutions), file, {})
+        write_dataset(dwell_dataset(dwells_at(speed, run, states, choice), choice.revolutions), file, {})
 
     speeds = speeds_dwelt_on(levels_of(states), choice)
     files = [kept_file(f"{exact_text(speed)}.nc", made_of, partial(write, speed), parts) for speed in speeds]

@@ -33,7 +33,12 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
     for axes, name in zip(panels, curves, strict=False):
         _band(axes, tolerances, leading_edge(nominal), name)
     if chance:
-        _probability(panels[-1], tolerances)
+        axes, sure = panels[-1], f"{CONFIDENCE:.0%} interval of the chance"
+        share, low, high = (100.0 * tolerances[f"{_CHANCE}{end}"].dropna("speed") for end in ("", "_low", "_high"))
+        axes.fill_between(share["speed"], low, high, color=style.COLOURS[1], alpha=0.25, linewidth=0, label=sure)
+        axes.plot(share["speed"], share, color=style.COLOURS[1], label="share of the members")
+        axes.axhline(50.0, color="0.5", linewidth=0.6, linestyle=":")
+        axes.set(ylim=(0.0, 102.0), ylabel="above yield (%)")
     panels[-1].set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
     if "max_von_mises_ever" in curves:
@@ -62,16 +67,6 @@ def _band(axes: Axes, tolerances: xr.Dataset, nominal: xr.Dataset, name: str) ->
         axes.plot(curve["speed"], scale * curve, color=style.COLOURS[1], linewidth=0.8, linestyle="--", label="nominal")
     axes.set_ylabel(label)
     axes.set_ylim(0.0, None)
-
-
-def _probability(axes: Axes, tolerances: xr.Dataset) -> None:
-    share, low, high = (100.0 * tolerances[f"{_CHANCE}{end}"].dropna("speed") for end in ("", "_low", "_high"))
-    sure = f"{CONFIDENCE:.0%} interval of the chance"
-    axes.fill_between(share["speed"], low, high, color=style.COLOURS[1], alpha=0.25, linewidth=0, label=sure)
-    axes.plot(share["speed"], share, color=style.COLOURS[1], label="share of the members")
-    axes.axhline(50.0, color="0.5", linewidth=0.6, linestyle=":")
-    axes.set_ylim(0.0, 102.0)
-    axes.set_ylabel("above yield (%)")
 
 
 def _numbers(axes: Axes, tolerances: xr.Dataset) -> None:
