@@ -113,56 +113,23 @@ def changed_profile(profile: ProfileParameters, change: SectionChange) -> Profil
     return profile
 
 
-@dataclass(frozen=True)
-class _Centreline:
-    """Two arcs on a cone: `angles` (rad, inlet, transition, outlet), `lengths` (m) and the `thickest` point's length (m)."""
+def _arcs(cone: Cone, angles: np.ndarray, lengths: np.ndarray) -> tuple[ConstantRatePath, ConstantRatePath]:
+    """Two arcs with `angles` (rad) at inlet, transition and outlet, and `lengths` (m)."""
+    rates = np.diff(angles) / lengths
+    front = ConstantRatePath(cone, 0.0, 0.0, angles[0], rates[0])
+    m, theta = (float(coordinate) for coordinate in front.point(lengths[0]))
+    return front, ConstantRatePath(cone, m, theta, angles[1], rates[1])
 
-    cone: Cone
-    angles: np.ndarray
-    lengths: np.ndarray
-    thickest: float
 
-    @classmethod
-    def build(cls, p: ProfileParameters) -> Self:
-        line = centreline(p)
-        cone, lengths = line.front.cone, np.array([line.front_length, line.rear_length])
-        m_thickest = p.maximum_thickness_axial / np.cos(cone.half_angle)
-        is_front = m_thickest < line.rear.m
-        thickest = line.front.length_to(m_thickest) if is_front else line.front_length + line.rear.length_to(m_thickest)
-        return cls(cone, np.array([p.inlet_angle, p.transition_angle, p.outlet_angle]), lengths, thickest)
+def _chord(cone: Cone, angles: np.ndarray, lengths: np.ndarray) -> np.ndarray:
+    """Direction (rad) and length (m) of the chord line of two arcs: its angle to the axis, and on the unrolled cone.
 
-    def turned(self, camber: float, rotation: float, scale: float) -> Self:
-        """Section with added turning, spread evenly over the length, all angles rotated alike and all lengths scaled."""
-        share = np.array([0.0, self.lengths[0], self.lengths.sum()]) / self.lengths.sum()
-        angles = self.angles + camber * (0.5 - share) + rotation
-        return replace(self, angles=angles, lengths=scale * self.lengths, thickest=scale * self.thickest)
-
-    def paths(self) -> tuple[ConstantRatePath, ConstantRatePath]:
-        rates = np.diff(self.angles) / self.lengths
-        front = ConstantRatePath(self.cone, 0.0, 0.0, self.angles[0], rates[0])
-        m, theta = (float(coordinate) for coordinate in front.point(self.lengths[0]))
-        return front, ConstantRatePath(self.cone, m, theta, self.angles[1], rates[1])
-
-    def chord(self) -> np.ndarray:
-        """Direction (rad) and length (m) of the chord line: its angle to the axis, as `Profile.stagger`, and on the
-        unrolled cone."""
-        m, theta = self.paths()[1].point(self.lengths[1])
-        # seen from half-way between the ends, where Profile.stagger has the centre of area
-        rise = (self.cone.inlet_radius + self.cone.radius(m)) * np.sin(theta / 2.0)
-        return np.array([np.arctan2(rise, self.cone.axial(m)), np.hypot(*self.cone.unroll(0.0, 0.0, m, theta))])
-
-    def positions(self) -> dict[str, float]:
-        """Axial positions and the outlet radius (m), by their fields in ProfileParameters."""
-        front, rear = self.paths()
-        beyond = self.thickest - self.lengths[0]
-        m_thickest = front.meridional(self.thickest) if beyond < 0.0 else rear.meridional(beyond)
-        m_outlet = rear.meridional(self.lengths[1])
-        return {
-            "maximum_thickness_axial": float(self.cone.axial(m_thickest)),
-            "transition_axial": float(self.cone.axial(rear.m)),
-            "outlet_axial": float(self.cone.axial(m_outlet)),
-            "outlet_radius": float(self.cone.radius(m_outlet)),
-        }
+    The angle is that of `Profile.stagger`.
+    """
+    m, theta = _arcs(cone, angles, lengths)[1].point(lengths[1])
+    # seen from half-way between the ends, where Profile.stagger has the centre of area
+    rise = (cone.inlet_radius + cone.radius(m)) * np.sin(theta / 2.0)
+    return np.array([np.arctan2(rise, cone.axial(m)), np.hypot(*cone.unroll(0.0, 0.0, m, theta))])
 
 
 def _redrawn(profile: ProfileParameters, change: SectionChange) -> ProfileParameters:
@@ -170,17 +137,32 @@ def _redrawn(profile: ProfileParameters, change: SectionChange) -> ProfileParame
     if not change.chord > 0.0:
         # a spline through shares may pass below them
         raise BladeShapeError(f"{profile.label}: the share of the chord is {100 * change.chord:g}%; it must be positive")
-    line = _Centreline.build(profile)
-    direction, length = line.chord()
+    line, names = centreline(profile), ("inlet_angle", "transition_angle", "outlet_angle")
+    cone, lengths = line.front.cone, np.array([line.front_length, line.rear_length])
+    angles = np.array([getattr(profile, name) for name in names])
+    direction, length = _chord(cone, angles, lengths)
     wanted = np.array([direction + change.stagger, change.chord * length])
+    # the added camber is spread evenly over the length
+    cambered = angles + change.camber * (0.5 - np.array([0.0, lengths[0], lengths.sum()]) / lengths.sum())
 
     def miss(unknowns: np.ndarray) -> np.ndarray:
-        ends = line.turned(change.camber, *unknowns).chord()
+        rotation, scale = unknowns
+        ends = _chord(cone, cambered + rotation, scale * lengths)
         return np.array([ends[0] - wanted[0], ends[1] / wanted[1] - 1.0])
 
     solution = scipy.optimize.root(miss, np.array([change.stagger, change.chord]), tol=1e-14)
     if not np.max(np.abs(miss(solution.x))) < 1e-9 or not solution.x[1] > 0.0:
         raise BladeShapeError(f"{profile.label}: no two arcs on the cone have this stagger, camber and chord")
-    drawn = line.turned(change.camber, *solution.x)
-    angles = dict(zip(("inlet_angle", "transition_angle", "outlet_angle"), map(float, drawn.angles), strict=True))
-    return replace(profile, **angles, **drawn.positions())
+    rotation, scale = solution.x
+    front, rear = _arcs(cone, cambered + rotation, scale * lengths)
+    m = profile.maximum_thickness_axial / np.cos(cone.half_angle)
+    thickest = scale * (line.front.length_to(m) if m < line.rear.m else line.front_length + line.rear.length_to(m))
+    beyond = thickest - scale * lengths[0]
+    places = {
+        "maximum_thickness_axial": cone.axial(front.meridional(thickest) if beyond < 0.0 else rear.meridional(beyond)),
+        "transition_axial": cone.axial(rear.m),
+        "outlet_axial": cone.axial(rear.meridional(scale * lengths[1])),
+        "outlet_radius": cone.radius(rear.meridional(scale * lengths[1])),
+    }
+    drawn = dict(zip(names, cambered + rotation, strict=True)) | places
+    return replace(profile, **{name: float(value) for name, value in drawn.items()})
