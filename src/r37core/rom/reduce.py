@@ -19,7 +19,7 @@ from .reduced_model import ReducedModel
 from .reduction_choice import LINEAR, BoundaryChoice, ReductionChoice
 from .region_choice import RegionChoice
 from .rotating_blade import RotatingBlade
-from .stress_region import RegionMaker
+from .stress_region import make_regions
 
 
 def reduce_blade(
@@ -51,7 +51,7 @@ def reduce_blade(
     mass_times_vectors, stiffness = mass @ vectors, blade.stiffness_terms(vectors)
     reduced_mass = symmetric(vectors.T @ mass_times_vectors)
     squares, modes = la.eigh(stiffness["stiffness"], reduced_mass)
-    maker = RegionMaker(mesh, recovery, material, np.sqrt(squares) / (2.0 * np.pi), modes, contact.weights.indices)
+    at_rest = np.sqrt(squares) / (2.0 * np.pi), modes
     return ReducedModel(
         **stiffness,
         mass=reduced_mass,
@@ -60,7 +60,7 @@ def reduce_blade(
         contact_chord=contact.mean_chord,
         contact_tip_lengths=contact.lengths,
         tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
-        stress_regions=maker.regions(stress_regions),
+        stress_regions=make_regions(stress_regions, mesh, recovery, material, *at_rest, contact.weights.indices),
         whole_blade=recovery(np.arange(len(mesh.points))) if reduction.recover_whole_blade else None,
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ mass_times_vectors for shape in shapes.values()]),

@@ -42,77 +42,70 @@ class StressRegion:
         return interpolated(self.elements, self.nodes.points, self.integration_points)[self.evaluated]
 
 
-@dataclass(frozen=True)
-class RegionMaker:
-    """Makes regions of a `mesh`.
+def make_regions(
+    choices: Mapping[str, RegionChoice],
+    mesh: BladeMesh,
+    recovery: Callable[[np.ndarray], RecoveryNodes],
+    material: Material,
+    frequencies: np.ndarray,
+    modes: np.ndarray,
+    contact_nodes: np.ndarray,
+) -> dict[str, StressRegion]:
+    """Regions of a mesh by name.
 
     `recovery`: what moves nodes of these numbers; `material`: of the blade; `frequencies` (Hz) and `modes`, shape (coordinates,
     modes), at rest; `contact_nodes`: mesh nodes that contact acts on.
     """
-
-    mesh: BladeMesh
-    recovery: Callable[[np.ndarray], RecoveryNodes]
-    material: Material
-    frequencies: np.ndarray
-    modes: np.ndarray
-    contact_nodes: np.ndarray
-
-    def regions(self, choices: Mapping[str, RegionChoice]) -> dict[str, StressRegion]:
-        """The regions by name."""
-        every_mode: dict[RegionChoice, np.ndarray] = {}
-        made = {}
-        for name, choice in choices.items():
-            elements = choice.elements(self.mesh, self.contact_nodes)
-            evaluated = _occurring(stress_numbers(elements, choice.integration_points))
-            if len(evaluated) > _MOST_POINTS:
-                where = replace(choice, highest_frequency=np.inf)
-                if where not in every_mode:
-                    # of the lowest modes, then of rotation's shapes
-                    nodes = _occurring(elements)
-                    moved = self.recovery(nodes)
-                    fields = np.concatenate([moved.basis @ self.modes[:, :_MOST_MODES], moved.rotation_shapes], axis=2)
-                    local = {name: np.searchsorted(nodes, block) for name, block in elements.items()}
-                    stress = recovered_stress(local, moved.points, fields, self.material, choice.integration_points)
-                    every_mode[where] = deviatoric(stress)
-                evaluated = evaluated[self._candidates(every_mode[where], choice.highest_frequency)]
-            made[name] = self._region(choice, elements, evaluated)
-        return made
-
-    def _region(self, choice: RegionChoice, elements: dict[str, np.ndarray], evaluated: np.ndarray) -> StressRegion:
-        """The region with the elements that hold an evaluated point alone: others have no part in its mean."""
-        inside = choice.integration_points
+    every_mode: dict[RegionChoice, np.ndarray] = {}
+    regions = {}
+    for name, choice in choices.items():
+        elements, inside = choice.elements(mesh, contact_nodes), choice.integration_points
         numbers = stress_numbers(elements, inside)
-        touching = {name: np.isin(numbers[name], evaluated).any(axis=1) for name in elements}
-        kept = {name: elements[name][touched] for name, touched in touching.items() if touched.any()}
-        nodes, places = _occurring(kept), interpolated(elements, self.mesh.parameters, inside)
-        return StressRegion(
+        evaluated = _occurring(numbers)
+        if len(evaluated) > _MOST_POINTS:
+            where = replace(choice, highest_frequency=np.inf)
+            if where not in every_mode:
+                # of the lowest modes, then of rotation's shapes
+                nodes = _occurring(elements)
+                moved = recovery(nodes)
+                fields = np.concatenate([moved.basis @ modes[:, :_MOST_MODES], moved.rotation_shapes], axis=2)
+                local = {kind: np.searchsorted(nodes, block) for kind, block in elements.items()}
+                every_mode[where] = deviatoric(recovered_stress(local, moved.points, fields, material, inside))
+            counts = np.ones(every_mode[where].shape[2], dtype=bool)
+            lowest = frequencies[:_MOST_MODES]
+            counts[: len(lowest)] = lowest <= choice.highest_frequency
+            evaluated = evaluated[_candidates(every_mode[where][:, :, counts])]
+        # elements that hold no evaluated point have no part in its mean
+        touching = {kind: np.isin(numbers[kind], evaluated).any(axis=1) for kind in elements}
+        kept = {kind: elements[kind][touched] for kind, touched in touching.items() if touched.any()}
+        nodes, places = _occurring(kept), interpolated(elements, mesh.parameters, inside)
+        regions[name] = StressRegion(
             description=choice.description(),
             highest_frequency=choice.highest_frequency,
-            nodes=self.recovery(nodes),
-            elements={name: np.searchsorted(nodes, block) for name, block in kept.items()},
-            evaluated=np.searchsorted(_occurring({name: numbers[name][touching[name]] for name in kept}), evaluated),
+            nodes=recovery(nodes),
+            elements={kind: np.searchsorted(nodes, block) for kind, block in kept.items()},
+            evaluated=np.searchsorted(_occurring({kind: numbers[kind][touching[kind]] for kind in kept}), evaluated),
             places=places[evaluated],
             integration_points=inside,
         )
+    return regions
 
-    def _candidates(self, stress: np.ndarray, highest_frequency: float) -> np.ndarray:
-        """Places of the points that have the largest stress in some of many motions.
 
-        `stress`, shape (5, points, fields), float32: deviatoric, of the lowest modes, then of rotation's shapes.
+def _candidates(stress: np.ndarray) -> np.ndarray:
+    """Places of the points that have the largest stress in some of many motions.
 
-        Motions are drawn by chance, so that every mode can be the one that decides.
-        """
-        modes = min(self.modes.shape[1], _MOST_MODES)
-        counts = np.concatenate([self.frequencies[:modes] <= highest_frequency, np.ones(stress.shape[2] - modes, dtype=bool)])
-        stress = stress[:, :, counts] / np.sqrt(np.sum(stress[:, :, counts] ** 2, axis=0)).max(axis=0)
-        random = np.random.default_rng(_SEED)
-        shape = (_DRAWS, stress.shape[2])
-        motions = (random.choice([-1.0, 1.0], shape) * np.exp(1.5 * random.standard_normal(shape))).astype(np.float32)
-        worst = [
-            sum(np.square(part @ some.T) for part in stress).argmax(axis=0)
-            for some in np.split(motions, range(_AT_ONCE, _DRAWS, _AT_ONCE))
-        ]
-        return np.unique(np.concatenate(worst))
+    `stress`, shape (5, points, fields), float32: deviatoric, of modes and of rotation's shapes. Motions are drawn by chance, so
+    that every one of these can be the one that decides.
+    """
+    stress = stress / np.sqrt(np.sum(stress**2, axis=0)).max(axis=0)
+    random = np.random.default_rng(_SEED)
+    shape = (_DRAWS, stress.shape[2])
+    motions = (random.choice([-1.0, 1.0], shape) * np.exp(1.5 * random.standard_normal(shape))).astype(np.float32)
+    worst = [
+        sum(np.square(part @ some.T) for part in stress).argmax(axis=0)
+        for some in np.split(motions, range(_AT_ONCE, _DRAWS, _AT_ONCE))
+    ]
+    return np.unique(np.concatenate(worst))
 
 
 def _occurring(numbers: Mapping[str, np.ndarray]) -> np.ndarray:

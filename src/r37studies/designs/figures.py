@@ -1,12 +1,11 @@
 """A family of designs: robustness and structure against what varies."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from textwrap import fill
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.base.plain import from_plain
@@ -56,7 +55,13 @@ def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -
     for axes, measure in zip(grid.flat, drawn, strict=True):
         unit, factor = shown_unit(unit_of(measure))
         for name, rows in table.groupby(chosen.other, sort=False):
-            _draw(axes, rows.assign(**{measure: factor * rows[measure]}), measure, kind, keys, str(name))
+            if len(keys) == 1:
+                rows = rows.sort_values(keys[0])
+                places, marker = axis_of_key(keys[0])[1] * rows[keys[0]], "o-"
+            else:
+                places, marker = np.arange(len(rows)), "o"
+                axes.set_xticks(places, rows[kind])
+            axes.plot(places, factor * rows[measure], marker, markersize=4, label=str(name))
         axes.set_ylabel(f"{fill(_TITLES[measure], _LABEL_WIDTH)}\n({unit})")
     # what does not depend on the scene is the same line twice
     style.legend_below(figure, [grid.flat[-1]], 4)
@@ -67,13 +72,3 @@ def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -
             axes.tick_params(axis="x", rotation=90, labelsize=6)
     figure.suptitle(f"family {title}: {table[kind].nunique()} designs over {', '.join(keys)}")
     return figure
-
-
-def _draw(axes: Axes, rows: pd.DataFrame, column: str, kind: str, keys: Sequence[str], label: str) -> None:
-    if len(keys) == 1:
-        ordered = rows.sort_values(keys[0])
-        axes.plot(axis_of_key(keys[0])[1] * ordered[keys[0]], ordered[column], "o-", markersize=4, label=label)
-    else:
-        places = np.arange(len(rows))
-        axes.plot(places, rows[column], "o", markersize=4, label=label)
-        axes.set_xticks(places, rows[kind])

@@ -40,7 +40,12 @@ def draw_design_map(
     for axes, (name, part) in zip(grid.flat, panels, strict=False):
         cells = _draw_cells(axes, _grid(part, keys, column, "max"), highest, digits)
         axes.set_title(name)
-        _label(axes, part, keys)
+        for axis, key in zip((axes.xaxis, axes.yaxis), keys, strict=True):
+            words, factor = axis_of_key(key)
+            values = factor * np.unique(part[key])
+            axis.set_ticks(np.arange(len(values)), [f"{value:.4g}" for value in values])
+            axis.set_label_text(words)
+        axes.grid(visible=False)
         axes.label_outer()
         up, across_some = np.nonzero(_grid(part.assign(some=some_above_yield(part)), keys, "some", "max") == 1.0)
         if len(up):
@@ -105,15 +110,6 @@ def _draw_cells(axes: Axes, values: np.ndarray, highest: float, digits: int) -> 
             colour = "white" if value < 0.5 * highest else "black"
             axes.text(column, row, f"{value:.{digits}f}", color=colour, fontsize=8, ha="center", va="center")
     return cells
-
-
-def _label(axes: Axes, rows: pd.DataFrame, keys: Sequence[str]) -> None:
-    for axis, key in zip((axes.xaxis, axes.yaxis), keys, strict=True):
-        label, factor = axis_of_key(key)
-        values = factor * np.unique(rows[key])
-        axis.set_ticks(np.arange(len(values)), [f"{value:.4g}" for value in values])
-        axis.set_label_text(label)
-    axes.grid(visible=False)
 
 
 def _draw_verdict(axes: Axes, rows: pd.DataFrame, keys: Sequence[str], verdict: pd.DataFrame) -> None:

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import pi
 from pathlib import Path
 
@@ -34,61 +33,55 @@ _UNITS = {
 _UNCERTAINTY = re.compile(r"uncertainty|sigma|std|deviation|error|(?<![a-z])sd(?![a-z])", re.IGNORECASE)
 
 
-@dataclass(frozen=True)
-class _Table:
-    """The rows of a file that count."""
+def _columns(cells: pd.DataFrame) -> dict[str, tuple[str, float]]:
+    """Title of each column -> the kind of quantity by its unit, "" without one, and what one of that is in the SI."""
+    return {title: _kind(title) for title in cells}
 
-    cells: pd.DataFrame
 
-    @property
-    def columns(self) -> dict[str, tuple[str, float]]:
-        """Title of each column -> the kind of quantity by its unit, "" without one, and what one of that is in the SI."""
-        return {title: _kind(title) for title in self.cells}
+def _header(cells: pd.DataFrame) -> str:
+    kinds = {title: kind or "no number" for title, (kind, _) in _columns(cells).items()}
+    kinds |= {title: "uncertainty" for title, (kind, _) in _columns(cells).items() if kind and _UNCERTAINTY.search(title)}
+    return ", ".join(f"{title} ({kind})" for title, kind in kinds.items())
 
-    @property
-    def header(self) -> str:
-        kinds = {title: kind or "no number" for title, (kind, _) in self.columns.items()}
-        kinds |= {title: "uncertainty" for title, (kind, _) in self.columns.items() if kind and _UNCERTAINTY.search(title)}
-        return ", ".join(f"{title} ({kind})" for title, kind in kinds.items())
 
-    def column(self, key: str, kind: str, title: str | None = None, *, uncertain: bool = False) -> str | None:
-        """The column of this `title`, or the one that fits. Raises MeasurementError for none of the title, and for several."""
-        columns = [each for each, (own, _) in self.columns.items() if own == kind]
-        fitting = [each for each in columns if (each == title if title else bool(_UNCERTAINTY.search(each)) == uncertain)]
-        if len(fitting) > 1 or (title and not fitting):
-            problem = f"'{title}'" if title else f"{len(fitting)} columns with a {kind}"
-            raise MeasurementError(key, f"found {problem}; allowed: one column with a {kind} of the header: {self.header}")
-        return fitting[0] if fitting else None
+def _column(cells: pd.DataFrame, key: str, kind: str, title: str | None = None, *, uncertain: bool = False) -> str | None:
+    """The column of this `title`, or the one that fits. Raises MeasurementError for none of the title, and for several."""
+    columns = [each for each, (own, _) in _columns(cells).items() if own == kind]
+    fitting = [each for each in columns if (each == title if title else bool(_UNCERTAINTY.search(each)) == uncertain)]
+    if len(fitting) > 1 or (title and not fitting):
+        problem = f"'{title}'" if title else f"{len(fitting)} columns with a {kind}"
+        raise MeasurementError(key, f"found {problem}; allowed: one column with a {kind} of the header: {_header(cells)}")
+    return fitting[0] if fitting else None
 
-    def numbers(self, title: str) -> np.ndarray:
-        """Numbers of a column in SI units, NaN where a field is empty. Raises MeasurementError for a text."""
-        texts = self.cells[title]
-        numbers = pd.to_numeric(texts, errors="coerce")
-        strange = texts[numbers.isna() & texts.notna()]
-        if len(strange):
-            place = f"found '{strange.iloc[0]}' under {title}, in row {strange.index[0] + 1} below the header"
-            raise MeasurementError("file", f"{place}; allowed: a number with a point")
-        return self.columns[title][1] * numbers.to_numpy(float)
+
+def _numbers(texts: pd.Series) -> np.ndarray:
+    """Numbers of a column in SI units, NaN where a field is empty. Raises MeasurementError for a text."""
+    numbers = pd.to_numeric(texts, errors="coerce")
+    strange = texts[numbers.isna() & texts.notna()]
+    if len(strange):
+        place = f"found '{strange.iloc[0]}' under {texts.name}, in row {strange.index[0] + 1} below the header"
+        raise MeasurementError("file", f"{place}; allowed: a number with a point")
+    return _kind(str(texts.name))[1] * numbers.to_numpy(float)
 
 
 def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[float, ...]]:
     """Points of a file, and the speeds (rad/s) of its curve where one of these counts. Raises MeasurementError."""
-    table = _counting_rows(file, entry)
+    cells = _counting_rows(file, entry)
     kind = _STRAIN if entry.quantity == STRAIN else _LENGTH
-    axes = {kind: table.column("rows", kind) for kind in (_SPEED, _ANGLE, _TIME)}
+    axes = {kind: _column(cells, "rows", kind) for kind in (_SPEED, _ANGLE, _TIME)}
     title = entry.value
-    if title is None and entry.uncertainty in table.cells:
+    if title is None and entry.uncertainty in cells:
         # the other one, where a column is named that does not look like an uncertainty
-        others = [each for each, (own, _) in table.columns.items() if own == kind and each != entry.uncertainty]
+        others = [each for each, (own, _) in _columns(cells).items() if own == kind and each != entry.uncertainty]
         title = others[0] if len(others) == 1 else None
-    value = table.column("value", kind, title) or (axes[_SPEED] if entry.speed_of != VALUES else None)
+    value = _column(cells, "value", kind, title) or (axes[_SPEED] if entry.speed_of != VALUES else None)
     if value is None:
         wanted = f"no column of {entry.quantity}, with a {kind} in {', '.join(_UNITS[kind])}"
-        raise MeasurementError("value", f"{wanted}; the header is: {table.header}")
-    is_speed = table.columns[value][0] == _SPEED
-    sigma = table.column("uncertainty", _SPEED if is_speed else kind, entry.uncertainty, uncertain=True)
+        raise MeasurementError("value", f"{wanted}; the header is: {_header(cells)}")
+    is_speed = _kind(value)[0] == _SPEED
+    sigma = _column(cells, "uncertainty", _SPEED if is_speed else kind, entry.uncertainty, uncertain=True)
     columns = {name: column for name, column in {**axes, "value": value, "sigma": sigma}.items() if column}
-    numbers = {name: table.numbers(column) for name, column in columns.items()}
+    numbers = {name: _numbers(cells[column]) for name, column in columns.items()}
     known = np.isfinite([*numbers.values()]).all(axis=0)
     if not known.any():
         titles = ", ".join(columns.values())
@@ -96,7 +89,7 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     numbers = {name: part[known] for name, part in numbers.items()}
     if _SPEED not in numbers:
         if (speed := si_fields(entry).get("speed")) is None:
-            problem = f"found no column with a speed, in rad/s or rpm, among {table.header}"
+            problem = f"found no column with a speed, in rad/s or rpm, among {_header(cells)}"
             raise MeasurementError("speed_rad_s", f"{problem}; allowed: this key")
         numbers[_SPEED] = np.full(len(numbers["value"]), speed)
     if (slow := numbers[_SPEED] <= 0.0).any():
@@ -115,22 +108,23 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     return _over_speeds(numbers, entry)
 
 
-def _counting_rows(file: Path, entry: MeasurementSection) -> _Table:
+def _counting_rows(file: Path, entry: MeasurementSection) -> pd.DataFrame:
+    """The rows of a file that count."""
     try:
-        table = _Table(read_cells(file))
+        cells = read_cells(file)
     except ConfigError as error:
         raise MeasurementError("file", str(error)) from None
     if entry.value == ASKED:
-        raise MeasurementError("value", f"the columns are: {table.header}; name one, or leave the key out where one fits")
-    for key in {"blade", "scene"} & {*table.cells} - {*entry.rows}:
-        if others := {*table.cells[key].str.strip().dropna()} - {getattr(entry, key)}:
+        raise MeasurementError("value", f"the columns are: {_header(cells)}; name one, or leave the key out where one fits")
+    for key in {"blade", "scene"} & {*cells} - {*entry.rows}:
+        if others := {*cells[key].str.strip().dropna()} - {getattr(entry, key)}:
             problem = f"found rows of the {key} '{min(others)}'"
             raise MeasurementError("rows", f"{problem}; allowed: those of {getattr(entry, key)}, or rows: {{ {key}: name }}")
     for title, text in entry.rows.items():
-        if title not in table.cells:
-            raise MeasurementError("rows", f"found no column '{title}'; the header is: {table.header}")
-        table = _Table(table.cells[table.cells[title].str.strip() == text])
-    return table
+        if title not in cells:
+            raise MeasurementError("rows", f"found no column '{title}'; the header is: {_header(cells)}")
+        cells = cells[cells[title].str.strip() == text]
+    return cells
 
 
 def _kind(title: str) -> tuple[str, float]:

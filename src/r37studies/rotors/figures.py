@@ -27,7 +27,14 @@ def draw_rotor(rotor: xr.Dataset, title: str) -> Figure:
     _draw_map(panels[0, 0], rotor)
     _draw_worst(panels[0, 1], rotor)
     worst = rotor.isel(speed=worst_place(rotor, "blade_rms"))
-    _draw_growth(panels[1, 0], worst)
+    # largest displacement of every blade in each span of revolutions, the largest by name
+    growth, axes = 1e3 * worst["blade_maximum"].transpose("span", "blade_number").values, panels[1, 0]
+    order = np.argsort(-np.nan_to_num(worst["blade_rms"].values), kind="stable")
+    axes.plot(worst["span"], growth[:, order[_NAMED:]], color="0.75", linewidth=0.6)
+    for row in order[:_NAMED]:
+        axes.plot(worst["span"], growth[:, row], label=f"blade {int(worst['blade_number'][row])}")
+    axes.set(xlabel=f"revolution at {float(worst['speed']):g} rad/s", ylabel="largest displacement (mm)")
+    axes.legend(fontsize=6)
     panels[1, 1].bar(worst["nodal_diameter"], 100.0 * worst["nodal_diameter_share"].fillna(0.0), width=0.8)
     panels[1, 1].set(xlabel=f"nodal diameters at {float(worst['speed']):g} rad/s", ylabel="share of the motion (%)")
     return figure
@@ -74,15 +81,3 @@ def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
     above = f"at most {blades_above_yield(rotor)} of {number} blades above yield in most revolutions"
     axes.set_title(f"{above}{diverged}", fontsize=7)
     axes.legend(loc="upper left", fontsize=6)
-
-
-def _draw_growth(axes: Axes, run: xr.Dataset) -> None:
-    """Largest displacement of every blade in each span of revolutions, the largest by name."""
-    growth = 1e3 * run["blade_maximum"].transpose("span", "blade_number").values
-    order = np.argsort(-np.nan_to_num(run["blade_rms"].values), kind="stable")
-    axes.plot(run["span"], growth[:, order[_NAMED:]], color="0.75", linewidth=0.6)
-    for row in order[:_NAMED]:
-        axes.plot(run["span"], growth[:, row], label=f"blade {int(run['blade_number'][row])}")
-    axes.set_xlabel(f"revolution at {float(run['speed']):g} rad/s")
-    axes.set_ylabel("largest displacement (mm)")
-    axes.legend(fontsize=6)

@@ -70,20 +70,14 @@ def tolerances_dataset(samples: Iterable[tuple[Sample, Path | str]], numbers: Se
     return joined.sel(blade=blades, scene=scenes)
 
 
-def _measured(response: xr.Dataset) -> dict[str, float]:
-    """MEASURES of one member."""
-    measures = {**dict.fromkeys(MEASURES, np.nan), "peak_speed": float(peak_of(response)["speed"])}
-    if "max_von_mises_ever" in response:
-        ranked = robustness(response, chance_scatter=False)
-        measures |= {si_name(column)[0]: ranked[column] for column in (*RANKED_BY, *_MORE)}
-    return measures
-
-
 def _kept(file: Path | str, name: str, numbers: Mapping[str, float | None]) -> xr.Dataset:
     """Curves and measures of one member by its `numbers`, and what requirements are judged by."""
     response = read_judged(file, RESPONSE.format(name))
     with readable(file):
-        values = _measured(response)
+        values = {**dict.fromkeys(MEASURES, np.nan), "peak_speed": float(peak_of(response)["speed"])}
+        if "max_von_mises_ever" in response:
+            ranked = robustness(response, chance_scatter=False)
+            values |= {si_name(column)[0]: ranked[column] for column in (*RANKED_BY, *_MORE)}
     edge = leading_edge(response)
     member = edge[[each for each in ("status", *_CURVES, *_JUDGED, *_OF_ALL) if each in edge]].drop_vars(
         "speed_rpm", errors="ignore"
@@ -109,21 +103,17 @@ def _pair_dataset(pair: tuple[str, str], members: Sequence[xr.Dataset]) -> xr.Da
         quantiles = spread.quantile(QUANTILES, "member", method="inverted_cdf").where(~diverged.all("member"))
         sample[f"{name}_quantile"] = quantiles.assign_attrs(about(units, f"quantiles over the members: {meaning}"))
     if "max_von_mises_ever" in sample:
-        sample = sample.assign(_chances(ratio_to_yield(sample) > 1.0))
+        above = ratio_to_yield(sample) > 1.0
+        count = above.sum("member")
+        low, high = share_ends(count.values, above.sizes["member"])
+        ends = f"end of what that share says of all that could be drawn, {CONFIDENCE:.0%} sure"
+        for end, share, text in (
+            ("", above.mean("member"), "share of the members above yield, diverged ones among them"),
+            ("_low", count.copy(data=low), f"lower {ends}"),
+            ("_high", count.copy(data=high), f"upper {ends}"),
+        ):
+            sample[f"probability_above_yield{end}"] = share.assign_attrs(about("1", text))
     values = sample["value"].transpose("member", "number").values
     rankings = [ranking(values, sample[name].values) for name in INDEXED]
     sample = sample.assign(xr.concat(rankings, xr.Variable("measure", list(INDEXED)), combine_attrs="override"))
     return sample.expand_dims(blade=[pair[0]], scene=[pair[1]])
-
-
-def _chances(above: xr.DataArray) -> dict[str, xr.DataArray]:
-    """The chance of passing yield at each speed, and the ends of its interval; `above`: whether a member does, at a speed."""
-    count = above.sum("member")
-    low, high = share_ends(count.values, above.sizes["member"])
-    ends = f"end of what that share says of all that could be drawn, {CONFIDENCE:.0%} sure"
-    parts = {
-        "": (above.mean("member"), "share of the members above yield, diverged ones among them"),
-        "_low": (count.copy(data=low), f"lower {ends}"),
-        "_high": (count.copy(data=high), f"upper {ends}"),
-    }
-    return {f"probability_above_yield{end}": part.assign_attrs(about("1", text)) for end, (part, text) in parts.items()}
