@@ -40,8 +40,8 @@ class RegionSection(Section):
     """Region of the stress: unclamped nodes within these bounds."""
 
     def _check(self) -> None:
-        bounds = ("minimum_z_m", "maximum_z_m"), ("minimum_span", "maximum_span")
-        for (lower, lowest), (upper, highest) in (((key, getattr(self, key)) for key in keys) for keys in bounds):
+        for lower, upper in (("minimum_z_m", "maximum_z_m"), ("minimum_span", "maximum_span")):
+            lowest, highest = getattr(self, lower), getattr(self, upper)
             if None not in (lowest, highest) and not lowest < highest:
                 raise refused(f"{lowest:g}", f"less than {upper} ({highest:g})", lower)
 

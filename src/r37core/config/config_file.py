@@ -24,12 +24,9 @@ class Boundary(Section):
     contact: Contact | LeftOut = left_out("Contact of all blades, in place of `contact` in blades.yaml")
 
 
-_SHIPPED_REGIONS: dict[str, RegionSection | None] = {
-    name: RegionSection.model_validate(bounds)
-    for name, bounds in {
-        "airfoil": {"minimum_span": 0.05, "maximum_span": 0.9, "highest_frequency_hz": 7500.0},
-        "airfoil_unfiltered": {"minimum_span": 0.05, "maximum_span": 0.9},
-    }.items()
+_SHIPPED_REGIONS = {
+    "airfoil": {"minimum_span": 0.05, "maximum_span": 0.9, "highest_frequency_hz": 7500.0},
+    "airfoil_unfiltered": {"minimum_span": 0.05, "maximum_span": 0.9},
 }
 
 
@@ -42,7 +39,7 @@ class StructureSection(Section):
     maximum_speed_rad_s: Speed = option("Highest speed of the basis and the Campbell diagram", 2000.0)
     kinematics: Kinematics | LeftOut = left_out("Kinematics of all blades, in place of `kinematics` in blades.yaml")
     stress_regions: ByName[RegionSection | None] = option(
-        "Regions of the stress; the first decides, null leaves one out of every blade", _SHIPPED_REGIONS
+        "Regions of the stress; the first decides, null leaves one out of every blade", _SHIPPED_REGIONS, validate_default=True
     )
 
     def _check(self) -> None:
@@ -88,12 +85,10 @@ class RefinementSection(Section):
     windows: list[WindowSection] = option(
         "Speed windows in which interactions are expected",
         [
-            WindowSection.model_validate(window)
-            for window in (
-                {"mode": "1B", "highest_engine_order": 8, "first": 0.01, "last": 0.06, "step_rad_s": 5.0},
-                {"mode": "1T", "highest_engine_order": 20, "first": 0.0, "last": 0.02, "step_rad_s": 5.0},
-            )
+            {"mode": "1B", "highest_engine_order": 8, "first": 0.01, "last": 0.06, "step_rad_s": 5.0},
+            {"mode": "1T", "highest_engine_order": 20, "first": 0.0, "last": 0.02, "step_rad_s": 5.0},
         ],
+        validate_default=True,
     )
     direct: DirectRefinementSection = DirectRefinementSection()
 

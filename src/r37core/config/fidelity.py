@@ -1,5 +1,6 @@
 """fidelity.yaml: accuracy levels."""
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Any, Self
 
@@ -43,11 +44,10 @@ class Measured(Section):
     )
     cpu_s_per_run: float = option("CPU seconds per run", ge=1e-6, le=1e9)
 
-    def error_of(self, point_contact: bool, blade: str = "") -> float | None:
-        """The error of runs with direct contact on points, or of others, or of a blade; None where that was not measured."""
-        if blade in self.error_of_blades:
-            return self.error_of_blades[blade]
-        return self.error_on_points if point_contact and self.error_on_points is not None else self.error
+    def error_of(self, point_contact: bool, blade: str = "") -> float:
+        """The error of runs with direct contact on points, or of others, or of a blade; NaN where that was not measured."""
+        error = self.error_on_points if point_contact and self.error_on_points is not None else self.error
+        return self.error_of_blades.get(blade, math.nan if error is None else error)
 
 
 TimeStep = Annotated[float, Field(ge=1e-12, le=1e-2)]
@@ -141,7 +141,7 @@ def cheapest_level(
     Raises ConfigError, at the tolerance of `config`, where there is none.
     """
     measured = {name: level.measured for name, level in levels.items() if level.measured}
-    errors = {name: error for name, measure in measured.items() if (error := measure.error_of(point_contact)) is not None}
+    errors = {name: error for name, each in measured.items() if not math.isnan(error := each.error_of(point_contact))}
     fitting = [level for level, error in errors.items() if error <= tolerance]
     if not fitting:
         known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"

@@ -329,8 +329,7 @@ def level_errors(settings: Settings, pairs: Sequence[tuple[str, str]]) -> list[f
     measured, points = settings.fidelity.measured, blades_on_points(settings)
     if measured is None:
         return [math.nan] * len(pairs)
-    errors = [measured.error_of(blade in points and not settings.scenes[scene].scene.lined, blade) for blade, scene in pairs]
-    return [math.nan if error is None else error for error in errors]
+    return [measured.error_of(blade in points and not settings.scenes[scene].scene.lined, blade) for blade, scene in pairs]
 
 
 def location_of_contact(settings: Settings, blade: str) -> str:

@@ -183,7 +183,7 @@ def read_geomturbo(text: str) -> SectionFile:
         raise TextFileError(pressure[0][0], f"{counted}; needed: as many of both")
     pairs = zip(suction, pressure, strict=True)
     sections = tuple(FileSection(joined_sides(side, other), line) for (line, side), (_, other) in pairs)
-    return SectionFile(sections, *(_channel(lines, name) for name in ("hub", "shroud")), unit)
+    return SectionFile(sections, _channel(lines, "hub"), _channel(lines, "shroud"), unit)
 
 
 def _sections(lines: list[Line], side: str) -> list[tuple[int, np.ndarray]]:
