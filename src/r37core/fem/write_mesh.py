@@ -29,21 +29,14 @@ def write_mesh(mesh: BladeMesh, file: Path | str) -> None:
             marks = {name: mesh.mask(name).astype(np.int8) for name in NODE_SETS}
             meshio.Mesh(mesh.points, dict(mesh.blocks), point_data=marks).write(partial)
             return
-        cells, groups = _grouped(mesh)
+        cells, numbers, surface = list(mesh.blocks.items()), [GROUPS["blade"]] * len(mesh.blocks), outer_faces(mesh.blocks)
+        for name in ("root", "tip"):
+            within = chosen(surface, mask_within(surface, mesh.mask(name)))
+            cells += [(_FACE_TYPES[part.corners, part.quadratic], part.nodes) for part in within]
+            numbers += [GROUPS[name]] * len(within)
+        # of each cell
+        groups = [np.full(len(nodes), number) for number, (_, nodes) in zip(numbers, cells, strict=True)]
         data = {"gmsh:physical": groups, "gmsh:geometrical": groups}
         names = {name: np.array([number, 3 if name == "blade" else 2]) for name, number in GROUPS.items()}
         grid = meshio.Mesh(mesh.points, cells, cell_data=data, field_data=names)
         grid.write(partial, file_format="gmsh22", binary=False)
-
-
-def _grouped(mesh: BladeMesh) -> tuple[list[tuple[str, np.ndarray]], list[np.ndarray]]:
-    """Cells of the solids and of the faces of root and tip, and the number of the group of each."""
-    cells = list(mesh.blocks.items())
-    numbers = [GROUPS["blade"]] * len(cells)
-    surface = outer_faces(mesh.blocks)
-    for name in ("root", "tip"):
-        within = chosen(surface, mask_within(surface, mesh.mask(name)))
-        faces = [(_FACE_TYPES[part.corners, part.quadratic], part.nodes) for part in within]
-        cells += faces
-        numbers += [GROUPS[name]] * len(faces)
-    return cells, [np.full(len(nodes), number) for number, (_, nodes) in zip(numbers, cells, strict=True)]

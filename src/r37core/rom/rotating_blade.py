@@ -8,11 +8,11 @@ displacement to second order with its inertia is that of these columns.
 """
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any
 
 import numpy as np
 import scipy.linalg as la
-import scipy.sparse as sp
 
 from r37core.fem.equilibrium import Rotation
 from r37core.fem.large_displacement import LargeDisplacement
@@ -83,7 +83,10 @@ class RotatingBlade:
     def stiffness_terms(self, vectors: np.ndarray) -> dict[str, Any]:
         """Fields of the reduced model about its stiffness in a basis, spin softening in it."""
         mass, speeds = projected(self._matrices.mass(), vectors), self._reduction.speeds
-        stiffness = np.array([projected(tangent, vectors) for tangent in self._tangents()])
+        # assembled again, one after another: all of them at once would be the most that a reduction holds
+        displaced = zip(self._reduction.speeds[1:], self._equilibria[1:], strict=True)
+        tangents = (self._rotation.tangent(displacement, speed) for speed, displacement in displaced)
+        stiffness = np.array([projected(tangent, vectors) for tangent in chain([self._matrices.stiffness()], tangents)])
         squares, modes = la.eigh(stiffness[0], mass)
         modal_stiffness = np.array([symmetric(modes.T @ matrix @ modes) for matrix in stiffness[1:]])
         logarithmic = LogarithmicStiffness.through(squares, modal_stiffness, np.array(speeds[1:]))
@@ -97,12 +100,6 @@ class RotatingBlade:
             places = np.array([logarithmic.abscissa(speed) for speed in speeds])
             terms["quadratic"] = self._quadratic_terms(vectors, mass, stiffness, places)
         return terms
-
-    def _tangents(self) -> Iterator[sp.csr_array]:
-        yield self._matrices.stiffness()
-        # assembled again: all of them at once would be the most that a reduction holds
-        for speed, displacement in zip(self._reduction.speeds[1:], self._equilibria[1:], strict=True):
-            yield self._rotation.tangent(displacement, speed)
 
     def _quadratic_terms(
         self, vectors: np.ndarray, mass: np.ndarray, stiffness: np.ndarray, places: np.ndarray
