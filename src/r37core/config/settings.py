@@ -146,8 +146,8 @@ class Settings:
         if self.config.fidelity != "auto":
             self.document.known(("fidelity",), [self.config.fidelity], self.levels, self.levels_document)
             return self.config.fidelity
-        on_points = bool(direct_on_points(self)[0])
-        return cheapest_level(self.levels, self.config.tolerance, on_points, self.document, self.levels_document)
+        point_contact = bool(direct_on_points(self)[0])
+        return cheapest_level(self.levels, self.config.tolerance, point_contact, self.document, self.levels_document)
 
     @property
     def fidelity(self) -> Level:
