@@ -15,8 +15,10 @@ SPEEDS = ("750", "1150", "1550")
 
 # what follows any change of a simulation
 DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure"}
-DATASETS |= {"spectrum_figure", "wear_figure", "comparison_figure", "ranking", "ranking_figure"}
+DATASETS |= {"comparison_figure", "ranking", "ranking_figure"}
 DATASETS |= {"interactions_figure"}
+# of the blade and scene alone
+MAPS = {"spectrum_figure", "wear_figure"}
 STRUCTURE = {"geometry", "mesh", "reduced_model", "campbell_of_blade", "campbell_figure"}
 OF_ALL_BLADES = {"campbell_of_all", "blade_shapes_figure"}
 
@@ -60,7 +62,7 @@ def test_an_added_speed_runs_alone(project, speeds, added):
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(added)
     assert jobs.pop("response") == per_run("response.nc")
-    assert set(jobs) == DATASETS
+    assert set(jobs) == DATASETS | MAPS
 
 
 def test_tables_and_figure_wait_for_the_further_runs_of_a_verdict(project):
@@ -72,7 +74,7 @@ def test_tables_and_figure_wait_for_the_further_runs_of_a_verdict(project):
     assert {f"results/{file}" for file in files} <= taken_by
 
 
-@pytest.mark.parametrize(("change", "again"), [("speeds: [750, 1150]", {"response"}), ("blades: [Ref]", OF_ALL_BLADES)])
+@pytest.mark.parametrize(("change", "again"), [("speeds: [750, 1150]", {"response", *MAPS}), ("blades: [Ref]", OF_ALL_BLADES)])
 def test_a_removed_speed_or_blade_runs_no_simulation(project, change, again):
     overlay(project, "config.yaml", change)
     assert set(planned_outputs(project)) == DATASETS | again
@@ -93,7 +95,7 @@ def test_an_added_blade_runs_its_own_jobs(project):
     overlay(project, "blades.yaml", "Eighth: { base: Ref, chordwise_sweep_deg: 7.5 }")
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(SPEEDS, blades=["Eighth"])
-    for rule in STRUCTURE | {"response", "prepare_time_integration", "contact_model", "stress_operator"}:
+    for rule in STRUCTURE | MAPS | {"response", "prepare_time_integration", "contact_model", "stress_operator"}:
         assert all("Eighth" in file for file in jobs.pop(rule)), rule
     assert set(jobs) == DATASETS | OF_ALL_BLADES
 
@@ -108,7 +110,8 @@ def test_friction_or_a_new_name_runs_its_scene(project, scene):
     assert jobs.pop("simulate") == runs(SPEEDS, scenes=[scene])
     assert jobs.pop("response") == per_run("response.nc", scenes=[scene])
     assert jobs.pop("prepare_time_integration") == per_run("time_integration.stamp", scenes=[scene])
-    assert set(jobs) == DATASETS - {"wear_figure"}
+    assert jobs.pop("spectrum_figure") == {f"figures/spectrum_{blade}__{scene}.png" for blade in BLADES}
+    assert set(jobs) == DATASETS
 
 
 def test_a_changed_base_runs_what_depends_on_it_and_nothing_else(project):
@@ -129,6 +132,8 @@ def test_a_changed_base_runs_what_depends_on_it_and_nothing_else(project):
         assert jobs.pop("simulate") == runs(SPEEDS, scenes=scenes), change
         assert jobs.pop("response") == per_run("response.nc", scenes=scenes)
         assert jobs.pop("prepare_time_integration") == per_run("time_integration.stamp", scenes=scenes)
+        drawn = {file for rule in MAPS for file in jobs.pop(rule, ())}
+        assert {file.rpartition("__")[2] for file in drawn} == {f"{scene}.png" for scene in scenes}
         assert set(jobs) == DATASETS
         file.write_text(finished)
 

@@ -71,7 +71,7 @@ FIGURES = (
         name="spectrum_{blade}__{scene}",
         runs=lambda sweep: run_keys(sweep.drawn_runs("spectrum")),
         draw="r37core.figures.maps.draw_spectral_map",
-        files={"campbell": ALL_CAMPBELL, "maps": "<results>/spectrum.nc"},
+        files={"campbell": CAMPBELL, "maps": RESPONSE},
         label="spectrum",
         caption="Spectral map of blade {blade} in scene {scene}: amplitude of the leading edge's motion, normal to the casing "
         "(left) and tangential (right), over speed and engine order. Colours are decibels below the largest amplitude at the "
@@ -83,7 +83,7 @@ FIGURES = (
         name="wear_{blade}__{scene}",
         runs=lambda sweep: run_keys(sweep.drawn_runs("wear")),
         draw="r37core.figures.maps.draw_wear_map",
-        files={"campbell": ALL_CAMPBELL, "maps": "<results>/wear.nc"},
+        files={"campbell": CAMPBELL, "maps": RESPONSE},
         label="wear",
         caption="Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in "
         "scene {scene}. Dotted: crossings of 1B with engine orders; an interaction wears as many lobes as its engine order. "
