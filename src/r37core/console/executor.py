@@ -32,15 +32,12 @@ common_settings = CommonSettings(
 PYTHON = sys.executable
 """The interpreter, before Snakemake is told how to call it."""
 
-SIMULATIONS = "r37core.time_integration.speed_job"
-"""Module of the steps that come by the thousand. VTK and others would make the fork and the end of each 20 ms longer."""
-
 _END_S = 20.0
 """Longest time (s) that the end of a server is waited for, which may be importing something."""
 
 
 class Executor(RealExecutor):
-    """Executor of jobs on this machine. `scripts`: folder of the Python scripts that servers run, set by r37's Snakefile."""
+    """Executor of jobs on this machine. `scripts`: folder of the scripts that the server runs, set by r37's Snakefile."""
 
     scripts: Path | None = None
     local: type[RealExecutor] | None = None
@@ -55,7 +52,7 @@ class Executor(RealExecutor):
     def __post_init__(self) -> None:
         local = self.local or ExecutorPluginRegistry().get_plugin("local").executor
         self._plain = local(self.workflow, self.logger)
-        self._servers: dict[bool, _Server] = {}
+        self._started: _Server | None = None
 
     @property
     def cores(self) -> Any:
@@ -71,9 +68,9 @@ class Executor(RealExecutor):
         return ExecMode.SUBPROCESS
 
     def run_job(self, job: Any) -> None:
-        """Run a job in a fork of its server, or by Snakemake's own executor."""
+        """Run a job in a fork of the server, or by Snakemake's own executor."""
         script = self._script(job)
-        server = self._server(job) if script else None
+        server = self._server() if script else None
         if script is None or server is None:
             self._plain.run_job(job)
             return
@@ -91,13 +88,10 @@ class Executor(RealExecutor):
         script = os.path.realpath(job.rule.basedir.join(job.rule.script).get_path_or_uri(secret_free=True))
         return script if os.path.dirname(script) == os.path.realpath(self.scripts) else None
 
-    def _server(self, job: Any) -> _Server | None:
-        """Server of a job, started with the first one; None where it was killed."""
-        simulates = job.params.get("step", "").startswith(SIMULATIONS)
-        if simulates not in self._servers:
-            self._servers[simulates] = _Server(self.logger.warning)
-        server = self._servers[simulates]
-        return server if server.answers else None
+    def _server(self) -> _Server | None:
+        """The server, started with the first job; None where it was killed."""
+        self._started = self._started or _Server(self.logger.warning)
+        return self._started if self._started.answers else None
 
     def _ended(self, info: SubmittedJobInfo, status: int | None) -> None:
         """Report the end of a job. One that was killed, or whose server was, runs by itself: then all is said of it."""
@@ -109,13 +103,13 @@ class Executor(RealExecutor):
             self.report_job_error(info)
 
     def shutdown(self) -> None:
-        """End the servers; when this returns no process of theirs is left."""
-        for server in self._servers.values():
-            server.end()
+        """End the server; when this returns no process of its is left."""
+        if self._started:
+            self._started.end()
         self._plain.shutdown()
 
     def cancel(self) -> None:
-        """End the servers with their jobs."""
+        """End the server with its jobs."""
         self.shutdown()
 
 
