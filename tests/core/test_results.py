@@ -78,15 +78,32 @@ def test_rotation_s_stress_is_in_it(model, stress):
     assert np.all(found != largest_of_revolutions(stress, states, shapes, np.empty(0), INSTANTS)[0])
 
 
-def test_a_node_that_is_the_worst_in_one_revolution_alone_is_found():
-    """Node 1 answers the second coordinate alone, which moves in one revolution; the last revolution does not know of it."""
-    operator = np.zeros((6, 2, 2))
+@pytest.mark.parametrize(("numbers", "at_its_worst"), [(2, (1.5, 2.0)), (2, (0.1, 2.0)), (20, (1.5, 2.0))])
+def test_a_node_that_is_the_worst_in_one_revolution_alone_is_found(numbers, at_its_worst):
+    """Node 1 answers the second number alone, which moves in one instant; the last revolution does not know of it.
+
+    Of few numbers it is found where all other nodes rest meanwhile.
+    """
+    operator = np.zeros((6, 2, numbers))
     operator[0, 0, 0], operator[3, 1, 1] = 1.0, 1.0
-    states = np.zeros((3 * 3, 2))
-    states[:, 0], states[4] = 1.0, (1.5, 2.0)
-    found, nodes = largest_of_revolutions(StressOperator(operator, 2, ""), states, np.eye(2), np.empty(0), 3)
+    states = np.zeros((3 * 3, numbers))
+    states[:, 0], states[4, :2] = 1.0, at_its_worst
+    found, nodes = largest_of_revolutions(StressOperator(operator, numbers, ""), states, np.eye(numbers), np.empty(0), 3)
     assert nodes.tolist() == [0, 1, 0]
     np.testing.assert_allclose(found, [1.0, np.sqrt(3.0) * 2.0, 1.0], rtol=1e-6)
+
+
+def test_few_numbers_miss_no_node_nor_instant():
+    """Of 70 revolutions, more than are looked at together, with and without a steady stress."""
+    random = np.random.default_rng(1)
+    operator, states = random.standard_normal((6, 40, 6)), random.standard_normal((70 * INSTANTS, 4))
+    stress = StressOperator(operator, 4, "")
+    for rotation in (np.empty(0), np.array([0.5, -2.0])):
+        coordinates = np.hstack([states, np.broadcast_to(rotation, (len(states), len(rotation)))])
+        every = stress.von_mises(coordinates).reshape(70, INSTANTS, 40)
+        found, nodes = largest_of_revolutions(stress, states, np.eye(4), rotation, INSTANTS)
+        np.testing.assert_allclose(found, every.max(axis=(1, 2)), rtol=2e-6)
+        np.testing.assert_array_equal(nodes, every.max(axis=1).argmax(axis=1))
 
 
 def test_a_region_without_elements_is_refused_before_any_simulation(model, steel):

@@ -22,7 +22,7 @@ _NODE_FIELDS = ("displacement_operator", "radius", "theta", "rotation_shapes")
 """Fields that a contact node has, and a node of the edge, too."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ContactModel:
     """A blade in the coordinates of its modes at rest.
 

@@ -4,11 +4,17 @@ All nodes at all instants of a hundred revolutions would take ten times as long 
 """
 
 from collections.abc import Callable
-from functools import reduce
+from functools import partial, reduce
 
 import numpy as np
 
 from .operator import StressOperator
+
+_FEW = 8
+"""Numbers of a state, rotation as one of them, up to which all nodes are looked at in all instants."""
+
+_AT_ONCE = 20
+"""Revolutions whose stresses are in memory at a time: more do not fit in a core's cache."""
 
 
 def largest_of_revolutions(
@@ -19,41 +25,80 @@ def largest_of_revolutions(
     `states`, shape (instants, numbers), of whole revolutions of `per_revolution` instants each; `shapes`, shape (coordinates,
     numbers): reduced coordinates per number; `rotation`, shape (shapes,): amplitudes of rotation's shapes, or none.
 
-    Nodes that are the worst at some instant of the last revolution are looked at in all instants, all nodes at the instant of
-    each revolution that is the worst so far, until neither gives another one. A node that is the worst at another instant
-    alone is missed. In single precision.
+    Where a state has _FEW numbers no node is missed, nor an instant; else see `_searched`. In single precision.
+    """
+    parts, columns = _linear(stress, states, shapes, rotation)
+    search = _all if len(columns) <= _FEW else _searched
+    largest = search(parts, columns, per_revolution).reshape(-1, per_revolution)
+    worst = largest.argmax(axis=1) + np.arange(len(largest)) * per_revolution
+    squares = _squares(parts, columns[:, worst])
+    return np.sqrt(squares.max(axis=0).astype(float)), squares.argmax(axis=0)
+
+
+def _linear(
+    stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Parts whose length is the von Mises stress, shape (5, nodes, numbers), per number of a state, shape (numbers, instants).
+
+    A steady stress of rotation is that of one more number, which is 1. In single precision.
     """
     states, shapes = stress.band_part(states, shapes)
-    squares, states = _squares(stress, shapes, rotation), states.astype(np.float32)
-    everything, revolutions = slice(None), np.arange(len(states) // per_revolution)
-    nodes = np.unique(squares(states[-per_revolution:], everything).argmax(axis=1))
-    new, largest = nodes, np.zeros(len(states), dtype=np.float32)
-    node_of = np.full(len(states), -1)
-    while len(new):
-        np.maximum(largest, squares(states, new).max(axis=1), out=largest)
-        worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions * per_revolution
-        worst = worst[node_of[worst] < 0]
-        worst_squares = squares(states[worst], everything)
-        largest[worst], node_of[worst] = worst_squares.max(axis=1), worst_squares.argmax(axis=1)
-        new = np.setdiff1d(node_of[worst], nodes)
-        nodes = np.union1d(nodes, new)
-    worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions * per_revolution
-    return np.sqrt(largest[worst].astype(float)), node_of[worst]
-
-
-def _squares(
-    stress: StressOperator, shapes: np.ndarray, rotation: np.ndarray
-) -> Callable[[np.ndarray, np.ndarray | slice], np.ndarray]:
-    """Gives squares of the von Mises stress, shape (instants, nodes), for states and some of the nodes."""
     vibration_part, rotation_part = np.split(stress.deviatoric[:, :, : len(shapes) + len(rotation)], [len(shapes)], axis=2)
-    per_number, still = vibration_part @ shapes.astype(np.float32), rotation_part @ rotation.astype(np.float32)
+    parts, columns = vibration_part @ shapes.astype(np.float32), states.T.astype(np.float32, order="C")
+    if len(rotation):
+        parts = np.concatenate([parts, rotation_part @ rotation[:, None].astype(np.float32)], axis=2)
+        columns = np.concatenate([columns, np.ones_like(columns[:1])])
+    return parts, columns
 
-    def squares(states: np.ndarray, nodes: np.ndarray | slice) -> np.ndarray:
-        # part by part: a sum over a short last axis takes several times as long
-        parts = zip(per_number[:, nodes], still[:, nodes], strict=True)
-        return reduce(np.add, (np.square(states @ rows.T + constant) for rows, constant in parts))
 
-    return squares
+def _squares(parts: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Squares of the von Mises stress, shape (nodes, instants)."""
+    stresses = parts.reshape(-1, len(columns)) @ columns
+    return reduce(np.add, np.square(stresses, out=stresses).reshape(*parts.shape[:2], -1))
+
+
+def _all(parts: np.ndarray, columns: np.ndarray, per_revolution: int) -> np.ndarray:
+    """Largest square of the von Mises stress over all nodes at each instant, shape (instants,).
+
+    With the parts D_n of a node and the numbers s of a state, in products, of which there are few:
+
+        |D_n s|^2 = sum over i <= j of (2 - delta_ij) (D_n^T D_n)_ij s_i s_j.
+    """
+    first, second = np.triu_indices(len(columns))
+    weights = (parts[..., first] * parts[..., second]).sum(axis=0) * np.where(first == second, 1.0, 2.0).astype(np.float32)
+    return _in_blocks(lambda block: (weights @ (block[first] * block[second])).max(axis=0), columns, per_revolution)
+
+
+def _searched(parts: np.ndarray, columns: np.ndarray, per_revolution: int) -> np.ndarray:
+    """Largest square of the von Mises stress over some nodes at each instant, shape (instants,).
+
+    Nodes that are the worst at some instant of the last revolution are looked at in all instants, all nodes at the instant of
+    each revolution that is the worst so far, until neither gives another one. A node that is the worst at another instant
+    alone is missed.
+    """
+    revolutions = np.arange(columns.shape[1] // per_revolution) * per_revolution
+    nodes = new = np.unique(_squares(parts, columns[:, -per_revolution:]).argmax(axis=0))
+    largest, seen = np.zeros(columns.shape[1], dtype=np.float32), np.zeros(columns.shape[1], dtype=bool)
+    while len(new):
+        np.maximum(largest, _in_blocks(partial(_worst, parts[:, new]), columns, per_revolution), out=largest)
+        worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions
+        worst = worst[~seen[worst]]
+        squares = _squares(parts, columns[:, worst])
+        largest[worst], seen[worst] = squares.max(axis=0), True
+        new = np.setdiff1d(squares.argmax(axis=0), nodes)
+        nodes = np.union1d(nodes, new)
+    return largest
+
+
+def _worst(parts: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Largest square over the nodes, shape (instants,)."""
+    return _squares(parts, columns).max(axis=0)
+
+
+def _in_blocks(function: Callable[[np.ndarray], np.ndarray], columns: np.ndarray, per_revolution: int) -> np.ndarray:
+    """What a function gives of blocks of whole revolutions, one after another."""
+    length = _AT_ONCE * per_revolution
+    return np.concatenate([function(columns[:, first : first + length]) for first in range(0, columns.shape[1], length)])
 
 
 def stress_cycles(

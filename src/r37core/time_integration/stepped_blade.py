@@ -1,7 +1,7 @@
 """The blade of a run: which of its modes are stepped, and how they move between contacts."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
+from .integration_choice import IntegrationChoice
 from .integrators import Recursion, recursion
 from .static_modes import residual_flexibility, settles_at_once, stepped_modes
 from .step_limit import largest_pressed_ratio, ratio_of_pressed_nodes
@@ -92,37 +93,14 @@ class SteppedBlade:
         if self.model.quadratic is not None:
             inertia, lowest = self.derivatives[0] ** 2, len(self.model.quadratic.coordinates)
             below = min(below, lowest + int(np.argmax(inertia[lowest:] > _STRETCHING * inertia.sum())))
-        frequencies, rows = self._rest_modes
-        choice = self.grid.choice
-
-        def is_stable(stepped: int) -> bool:
-            own = frequencies[:stepped]
-            stepping = recursion(choice.integrator, own, self.scene.damping(own, 0.0), choice.time_step)
-            flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])[0]
-            ratio = ratio_of_pressed_nodes(stepping, rows[0, :, :stepped], flexibility)
-            return ratio < largest_pressed_ratio(self.scene)
-
-        step, above = choice.time_step, choice.static_above
-        return stepped_modes(frequencies, rows, self.friction_coefficient, step, above, below, is_stable)
+        return _stepped_at_rest(self.model, self.scene, self.grid.choice, self.cone_angle, below)
 
     @cached_property
     def settles_at_once(self) -> bool:
         """True where the contact nodes get their forces at once, the same at all speeds; see static_modes."""
         if not self.grid.choice.second_order:
             return True
-        frequencies, rows = self._rest_modes
-        flexibility = residual_flexibility(frequencies[self._stepped :], rows[..., self._stepped :])
-        return settles_at_once(flexibility, self.friction_coefficient)
-
-    @property
-    def _rest_modes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Frequencies (rad/s) of all modes at rest, and the contact nodes' displacement by them, shape (3, nodes, modes)."""
-        return np.sqrt(self.model.squared_frequencies), casing_axes(self.model.displacement_operator, self.cone_angle)
-
-    @property
-    def friction_coefficient(self) -> float:
-        """Coefficient of friction; 0 without."""
-        return self.scene.friction.coefficient if self.scene.friction else 0.0
+        return _settles_at_once(self.model, self.cone_angle, self._stepped, friction_coefficient(self.scene))
 
     @cached_property
     def _modes_of_speed(self) -> tuple[np.ndarray, np.ndarray]:
@@ -147,3 +125,35 @@ class SteppedBlade:
             # followers keep theirs
             return self.model.logarithmic_stiffness.relative_change(self.modes, self.grid.speed)
         return np.sum(self.modes * (self.model.stiffness_per_square @ self.modes), axis=0) / self.frequencies**2
+
+
+def friction_coefficient(scene: Scene) -> float:
+    """Coefficient of friction; 0 without."""
+    return scene.friction.coefficient if scene.friction else 0.0
+
+
+def _rest_modes(model: ContactModel, cone_angle: float) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies (rad/s) of all modes at rest, and the contact nodes' displacement by them, shape (3, nodes, modes)."""
+    return np.sqrt(model.squared_frequencies), casing_axes(model.displacement_operator, cone_angle)
+
+
+@lru_cache(maxsize=32)
+def _stepped_at_rest(model: ContactModel, scene: Scene, choice: IntegrationChoice, cone_angle: float, most: int) -> int:
+    """Number of the modes that are stepped, at most `most`: see stepped_modes. The same at all speeds of a sweep."""
+    frequencies, rows = _rest_modes(model, cone_angle)
+
+    def is_stable(stepped: int) -> bool:
+        own = frequencies[:stepped]
+        stepping = recursion(choice.integrator, own, scene.damping(own, 0.0), choice.time_step)
+        flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])[0]
+        ratio = ratio_of_pressed_nodes(stepping, rows[0, :, :stepped], flexibility)
+        return ratio < largest_pressed_ratio(scene)
+
+    step, above = choice.time_step, choice.static_above
+    return stepped_modes(frequencies, rows, friction_coefficient(scene), step, above, most, is_stable)
+
+
+@lru_cache(maxsize=32)
+def _settles_at_once(model: ContactModel, cone_angle: float, stepped: int, coefficient: float) -> bool:
+    frequencies, rows = _rest_modes(model, cone_angle)
+    return settles_at_once(residual_flexibility(frequencies[stepped:], rows[..., stepped:]), coefficient)
