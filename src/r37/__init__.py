@@ -9,6 +9,7 @@ Bad input raises ConfigError, an unknown argument TypeError, a file that cannot 
 load buckles at a speed BucklingError.
 """
 
+import gc
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -78,7 +79,14 @@ def __getattr__(name: str) -> Any:
     module = next((module for module, names in _NAMES_OF.items() if name in names), None)
     if module is None:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    globals()[name] = value = getattr(import_module(module, __name__), name)
+    collecting = gc.isenabled()
+    # what is imported stays: looking through it for unused cycles again and again took a sixth of the time
+    gc.disable()
+    try:
+        globals()[name] = value = getattr(import_module(module, __name__), name)
+    finally:
+        if collecting:
+            gc.enable()
     return value
 
 
