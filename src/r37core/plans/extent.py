@@ -20,7 +20,7 @@ SWEEP = "sweep"
 _OF_COARSE = 1.5
 """Adaptive speeds that are run as a rule, in coarse ones, where windows ask for more than the largest share of the grid."""
 
-_STEP_S = {POINTS: 1.8e-7, PATCHES: 6e-7}
+_STEP_S = {POINTS: 1.8e-7, PATCHES: 7e-7}
 """CPU time (s) of a step, by what the contact acts on."""
 
 _REVOLUTION_S = 5e-5
@@ -29,13 +29,13 @@ _REVOLUTION_S = 5e-5
 _SIMULATION_S, JOB_S = 0.02, 0.05
 """CPU time (s) of a simulation beside its revolutions, and of its job where it has one of its own."""
 
-_MODEL_S, _NODE_S = 4.0, 1.7e-3
+_MODEL_S, _NODE_S = 4.0, 2.1e-3
 """CPU time (s) of a blade's model, and more of it for each node of its mesh."""
 
-_PAIR_S, _RUN_S = 4.0, 15.0
+_PAIR_S, _RUN_S = 4.0, 20.0
 """CPU time (s) of the datasets and pictures of a blade and scene, and of what a run has once."""
 
-_SETTLED = 0.5
+_SETTLED = 0.7
 """Share of the longest run that is run as a rule where a run ends as soon as it has settled."""
 
 
