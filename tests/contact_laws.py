@@ -5,11 +5,10 @@ from dataclasses import fields
 import numpy as np
 from numba import njit
 
-from r37core.contact import complementarity, laws, node_sweeps
+from r37core.contact import complementarity, laws, node_forces
 from r37core.machine_code.alignment import LANES, aligned_record, aligned_zeros, padded
 from r37core.machine_code.lanes import OPTIONS, inlined, load, store
 from r37core.time_integration.compiled.layout import LINING, complementarity_record, contact_record
-from r37core.time_integration.static_modes import settles_at_once
 
 _return_mapping, _friction_direction = inlined(laws.return_mapping), inlined(laws.friction_direction)
 
@@ -33,17 +32,19 @@ def _complement(room):
 
 
 @njit(**OPTIONS)
-def _sweep(room, count, largest_gap, lined):
+def _settle(room, count, largest_gap, lined, by_sweeps):
     m = room[0]
-    node_sweeps.set_laws(m.contact, count, m.lining, lined)
-    return node_sweeps.sweep_nodes(m.contact, count, largest_gap, m.lining.thickness, lined)
+    node_forces.set_laws(m.contact, count, m.lining, lined)
+    if by_sweeps:
+        return node_forces.sweep_nodes(m.contact, count, largest_gap, m.lining.thickness, lined)
+    return node_forces.settle_forces(m.contact, count, largest_gap, m.lining.thickness, lined)
 
 
 @njit(**OPTIONS)
 def _wear(room, groups):
     m = room[0]
     for group in range(len(groups)):
-        groups[group] = node_sweeps.wear_bars(m.contact, group * LANES, m.lining)
+        groups[group] = node_forces.wear_bars(m.contact, group * LANES, m.lining)
 
 
 def _numbers_of(bar):
@@ -75,7 +76,7 @@ def solve_complementarity(matrix, gap, guess=None):
     )
     p = room[0]["problem"]
     room[0]["columns"][:count, :count] = np.transpose(matrix)
-    p["diagonal"], p["lanes"], p["among"] = 1.0, nodes, -1
+    p["diagonal"], p["lanes"] = 1.0, nodes
     p["diagonal"][:count], p["gap"][:count] = np.diag(matrix), gap
     if guess is None or not np.any(guess):
         guess = np.asarray(gap) < 0.0
@@ -84,11 +85,12 @@ def solve_complementarity(matrix, gap, guess=None):
     return p["multiplier"][:count].copy(), violation
 
 
-def press_nodes(matrix, gap, bar=None, area=0.0, wear=0.0, start=0.0):
+def press_nodes(matrix, gap, bar=None, area=0.0, wear=0.0, start=0.0, by_sweeps=False):
     """The contact problem at one instant, of nodes at the bare casing, or on bars of an `area` (m2) worn by `wear` (m).
 
-    `matrix` (m/N): opening of the first index's gap per force on the second; `start` (N): forces that the sweeps begin with.
-    Returns forces (N), how far they are from settled, and, of bars, their wear (m) and which nodes reach the casing behind.
+    `matrix` (m/N): opening of the first index's gap per force on the second; `start` (N): forces to begin with; `by_sweeps`:
+    node by node, and not all at once. Returns forces (N), how far they are from settled, and, of bars, their wear (m) and which
+    nodes reach the casing behind.
     """
     count, nodes = len(gap), padded(len(gap))
     room = aligned_zeros((1,), aligned_record([("contact", contact_record(nodes), ()), ("lining", LINING, ())]))
@@ -96,12 +98,11 @@ def press_nodes(matrix, gap, bar=None, area=0.0, wear=0.0, start=0.0):
     c["gap"][:count], c["opened"][:count], c["pressure"][:count], c["wear"][:count] = gap, gap, start, wear
     c["columns"][:count, :count] = np.transpose(matrix)
     c["listed"][:count], c["lanes"] = np.arange(count), nodes
-    c["settles_at_once"] = settles_at_once(np.stack([np.transpose(matrix), np.zeros_like(matrix), np.zeros_like(matrix)]), 0.0)
     listed = np.arange(nodes) < count
     c["found"] = np.packbits(listed, bitorder="little")
     if bar is not None:
         room["lining"], c["area"][:count] = _numbers_of(bar), area
-    change = _sweep(room, count, np.abs(gap).max(), bar is not None)
+    change = _settle(room, count, np.abs(gap).max(), bar is not None, by_sweeps)
     pressure = c["pressure"].copy()
     assert not pressure[count:].any()
     if bar is None:

@@ -2,6 +2,7 @@
 
 import itertools
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -176,9 +177,9 @@ def test_forces_of_nodes_at_the_casing_against_brute_force(seed, n):
     generator = np.random.default_rng(seed)
     matrix, gap = opening_of_nodes(generator, n), 1e-5 * generator.standard_normal(n)
     expected, largest = brute_force(matrix, gap), np.abs(gap).max()
-    # from rest, from anything, from the answer
-    for start in (0.0, generator.uniform(0.0, 1e3, n), expected):
-        forces, change = press_nodes(matrix, gap, start=start)
+    # from rest, from anything, from the answer; by the sweeps, too, which are done where pieces go on changing
+    for start, by_sweeps in product((0.0, generator.uniform(0.0, 1e3, n), expected), (False, True)):
+        forces, change = press_nodes(matrix, gap, start=start, by_sweeps=by_sweeps)
         assert change == 0.0
         np.testing.assert_allclose(np.diag(matrix) * forces, np.diag(matrix) * expected, rtol=0, atol=1e-10 * largest)
 
@@ -265,6 +266,8 @@ def test_bars_and_casing_of_several_nodes_each_have_the_force_of_their_law(seed,
     wear = generator.uniform(0.0, 4e-5, n)
     forces, change, new, touching = press_nodes(matrix, gap, lining, AREA, wear)
     assert change == 0.0
+    by_sweeps, *_ = press_nodes(matrix, gap, lining, AREA, wear, by_sweeps=True)
+    np.testing.assert_allclose(by_sweeps, forces, rtol=0, atol=1e-9 * np.abs(forces).max())
     depth = -(gap + matrix @ forces)
     largest = np.abs(gap).max()
     assert np.all(depth <= lining.thickness + 1e-10 * largest)

@@ -509,7 +509,6 @@ def test_forces_of_twenty_patches_are_those_of_the_complementarity_problem(frict
     model = with_modes(with_static_modes(random_model(nodes), 1e-9), 1e8, near)
     simulation = Simulation(model, 12_000.0, scene, chosen)
     state, engine, found = simulation.start(), simulation.engine, 0
-    assert not simulation.problem.blade.settles_at_once
     for _ in range(62):
         simulation.advance_samples(state, 1)
         pressure = -state.contact_force[0]

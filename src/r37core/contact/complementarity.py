@@ -86,7 +86,7 @@ def _solve_exchanging(p, columns, count):
 def solve_complementarity(p, columns):
     """Find multipliers >= 0 with gap + matrix multipliers >= 0 and the two never both positive, into `p.multiplier`.
 
-    `p.touching`: the nodes expected to touch; `p.among`: those that may. Block principal pivoting, then Murty's least-index
+    `p.touching`: the nodes expected to touch. Block principal pivoting, then Murty's least-index
     rule, which ends for every P-matrix (Cottle, Pang and Stone, The Linear Complementarity Problem, section 4.2). Returns the
     largest violation of either sign condition, relative to the largest gap.
     """
@@ -111,7 +111,7 @@ def solve_complementarity(p, columns):
             touching = flags_of(p.touching[g // LANES])
             short = np.where(touching, multiplier * load(p.diagonal, g), opened)
             store(p.short, g, short)
-            p.wrong[g // LANES] = bits_of(short < -TOLERANCE * scale) & p.among[g // LANES]
+            p.wrong[g // LANES] = bits_of(short < -TOLERANCE * scale)
             wrong |= p.wrong[g // LANES]
         violation = 0.0
         if wrong == 0:

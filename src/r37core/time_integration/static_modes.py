@@ -16,17 +16,14 @@ from r37core.machine_code.alignment import LANES, padded
 from .step_limit import UnstableStepError
 
 SETTLES_SOON = 0.2
-"""Definiteness of G with which the sweeps over the nodes settle soon: taken wherever some choice of modes has it."""
+"""Definiteness of G with which nodes settle soon, even one after the other: taken wherever some choice of modes has it."""
 
 SMALLEST_DEFINITENESS = 0.05
-"""Smallest definiteness of G otherwise, so that the sweeps settle."""
+"""Smallest definiteness of G otherwise, so that forces settle."""
 
 SHARE_WITH_FRICTION = 0.2
 """Share of the definiteness without friction that friction has to leave. It is 0.9 of nodes of the mesh, and 0.1 to 0.4 of
 patches, whose neighbours static modes move together: the closer they are, the less."""
-
-LARGEST_EIGENVALUE = 1.6
-"""Largest eigenvalue of D^-1 G with which sweeps over all nodes at once settle soon; they diverge from 2 on."""
 
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
 """Directions of friction that are tried (rad)."""
@@ -60,17 +57,6 @@ def definiteness(flexibility: np.ndarray, coefficient: float) -> float:
         return 0.0
     opening = _opening(flexibility, coefficient) / np.sqrt(np.outer(own, own))
     return float(np.linalg.eigvalsh(0.5 * (opening + opening.swapaxes(1, 2)))[:, 0].min())
-
-
-def settles_at_once(flexibility: np.ndarray, coefficient: float) -> bool:
-    """True where sweeps settle in which all nodes take the forces of their laws at once; see r37core.contact.node_sweeps.
-
-    A sweep multiplies errors by I - D^-1 G, D the diagonal of G. An eigenvalue of D^-1 G exceeds LARGEST_EIGENVALUE where
-    static modes move many nodes together. Arguments as of definiteness.
-    """
-    opening = _opening(flexibility, coefficient).swapaxes(1, 2)
-    scaled = opening / np.diagonal(opening, axis1=1, axis2=2)[:, :, None]
-    return bool(np.abs(np.linalg.eigvals(scaled)).max() <= LARGEST_EIGENVALUE)
 
 
 def _opening(flexibility: np.ndarray, coefficient: float) -> np.ndarray:

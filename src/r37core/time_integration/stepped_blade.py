@@ -11,7 +11,7 @@ from r37core.rom.contact_model import ContactModel
 
 from .integration_choice import IntegrationChoice
 from .integrators import Recursion, recursion
-from .static_modes import residual_flexibility, settles_at_once, stepped_modes
+from .static_modes import residual_flexibility, stepped_modes
 from .step_limit import largest_pressed_ratio, ratio_of_pressed_nodes
 from .time_grid import TimeGrid
 
@@ -96,13 +96,6 @@ class SteppedBlade:
         return _stepped_at_rest(self.model, self.scene, self.grid.choice, self.cone_angle, below)
 
     @cached_property
-    def settles_at_once(self) -> bool:
-        """True where the contact nodes get their forces at once, the same at all speeds; see static_modes."""
-        if not self.grid.choice.second_order:
-            return True
-        return _settles_at_once(self.model, self.cone_angle, self._stepped, friction_coefficient(self.scene))
-
-    @cached_property
     def _modes_of_speed(self) -> tuple[np.ndarray, np.ndarray]:
         return self.model.modes_at(self.grid.speed)
 
@@ -151,9 +144,3 @@ def _stepped_at_rest(model: ContactModel, scene: Scene, choice: IntegrationChoic
 
     step, above = choice.time_step, choice.static_above
     return stepped_modes(frequencies, rows, friction_coefficient(scene), step, above, most, is_stable)
-
-
-@lru_cache(maxsize=32)
-def _settles_at_once(model: ContactModel, cone_angle: float, stepped: int, coefficient: float) -> bool:
-    frequencies, rows = _rest_modes(model, cone_angle)
-    return settles_at_once(residual_flexibility(frequencies[stepped:], rows[..., stepped:]), coefficient)

@@ -3,14 +3,13 @@
 u_{n+1} = a u_n + b u_{n-1} + c F_n, F_n from the gaps at u_n: the leapfrog of Stoermer and Verlet for modes between forces
 (Hairer, Lubich and Wanner, Geometric Numerical Integration, sections I.1.4 and XIII.2). The modes that are not stepped follow
 the forces at once by their residual flexibility, so that forces and gaps at t_n are one small problem of all nodes
-(r37core.contact.node_sweeps): bars, the casing behind them, or the bare casing, with friction against the sliding at t_n. It is
+(r37core.contact.node_forces): bars, the casing behind them, or the bare casing, with friction against the sliding at t_n. It is
 the massless boundary of Monjaraz-Tec, Gross and Krack, Computers & Structures 260 (2022), with exact modal steps.
 """
 
 import numpy as np
 
-from r37core.contact.complementarity import solve_complementarity
-from r37core.contact.node_sweeps import open_gaps, set_laws, sweep_nodes, wear_bars
+from r37core.contact.node_forces import set_laws, settle_forces, wear_bars
 from r37core.machine_code.alignment import LANES
 from r37core.machine_code.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
@@ -43,39 +42,12 @@ def press_contact(m, place):
             store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), -load(m.force, g), 0.0))
         count = joined
         set_laws(c, count, m.lining, m.lined)
-        if m.lined == 0 and c.settles_at_once == 0:
-            violation = press_bare_casing(m, count)
-        else:
-            violation = sweep_nodes(c, count, largest_gap, thickness, m.lined)
+        violation = settle_forces(c, count, largest_gap, thickness, m.lined)
     if count == 0:
         release_contact(m)
         return False
     m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
     return keep_forces(m, count)
-
-
-@inlined
-def press_bare_casing(m, count):
-    """Forces of the bare casing on the listed nodes, by pivoting: static modes move them together, and sweeps are slow.
-
-    Returns the largest violation of the contact conditions; see solve_complementarity, whose gaps are those of the problem.
-    """
-    c, p = m.contact, m.problem
-    guessed = 0
-    for g in range(0, node_lanes(m), LANES):
-        store(p.diagonal, g, load(c.own, g))
-        p.among[g // LANES] = c.found[g // LANES]
-        p.touching[g // LANES] = bits_of(load(c.pressure, g) > 0.0)
-        guessed |= p.touching[g // LANES]
-    if guessed == 0:
-        for g in range(0, node_lanes(m), LANES):
-            p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0) & c.found[g // LANES]
-    violation = solve_complementarity(p, c.columns)
-    for g in range(0, node_lanes(m), LANES):
-        store(c.pressure, g, load(p.multiplier, g))
-    for g in range(0, node_lanes(m), LANES):
-        store(c.opened, g, open_gaps(c, g, count))
-    return violation
 
 
 @inlined

@@ -153,8 +153,6 @@ class LaidOutProblem:
         m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
         others = constants_record(*self.capacity).itemsize // NUMBER_BYTES - MODAL_ROWS * self.capacity.modes
         m["call"]["other_constants"] = others
-        # every node may touch
-        m["problem"]["among"] = -1
         self.put_modes(
             displacement_operator=problem.contact.displacement_operator,
             outputs=problem.contact.output_operator[None, :, : self._modes],
@@ -209,7 +207,6 @@ class LaidOutProblem:
         self.put(bar_position=casing.tip.theta / (2.0 * np.pi) * lining.bars, bar_surface=casing.bar_surfaces)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
-        self.record[0]["contact"]["settles_at_once"] = problem.blade.settles_at_once
         force_outputs = problem.contact.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
         padded_forces = aligned_copy(force_outputs, self._node_lanes).reshape(1, len(force_outputs), -1)
         self.put(flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces)
@@ -222,10 +219,12 @@ class LaidOutProblem:
         m["outputs"][0, : len(outputs), columns] = outputs
         second = m["second"]
         second["rows"][0, :functionals, :modes] = quadratic.rows
-        second["weight"][:products], second["cubic"][:products, :products] = quadratic.weights, quadratic.cubic
+        second["stepped"][:modes] = 1.0
+        second["weight"][:products], second["cubic"][:products, :products] = quadratic.weights, quadratic.cubic.T
         second["left"][:products, :products] = quadratic.left
         second["bound"], second["surely_within"] = quadratic.bound, quadratic.surely_within
-        second["first"][:products], second["second"][:products] = quadratic.pairs
+        first, last = second["first"][:products], second["second"][:products] = quadratic.pairs
+        second["product_of"][first, last] = second["product_of"][last, first] = np.arange(products)
         numbers = {"functionals": functionals, "lanes": padded(functionals), "products": products, "lane": columns.start}
         for name, number in numbers.items():
             second[name] = number

@@ -94,25 +94,28 @@ def complementarity_record(nodes: int) -> np.dtype:
         _fields("left", nodes + 1, nodes),
         _fields("matrix", nodes, nodes + 1),
         _fields("listed", nodes, kind=np.int64),
-        _fields("touching wrong among", groups, kind=np.int64),
+        _fields("touching wrong", groups, kind=np.int64),
         _fields("lanes", kind=np.int64),  # that the nodes fill
     )
 
 
 def contact_record(nodes: int) -> np.dtype:
-    """The record of the contact problem at t_n of `nodes` nodes, whole vectors of them; see contact.node_sweeps."""
+    """The record of the contact problem at t_n of `nodes` nodes, whole vectors of them; see contact.node_forces."""
     return aligned_record(
-        # gaps (m) without forces and with those found, and these (N); what the last sweep changed (m)
-        _fields("gap opened pressure change", nodes),
+        # gaps (m) without forces and with those found, and these (N)
+        _fields("gap opened pressure", nodes),
         # the laws of the listed nodes: own flexibility (m/N) and one over it; pressed area (m2) and wear (m) of the bar;
         # lines of the bar's law in series with the node
         _fields("own stiffness area wear elastic offset plastic", nodes),
+        # the line that each law is on, its slope (N/m) and its force (N) where no node is pressed; what is left of the linear
+        # problem, and one over its pivots
+        _fields("slope at_zero inverse", nodes),
+        _fields("left", nodes + 1, nodes),
         # opening of the last node's gap per force on the one before (m/N)
         _fields("columns", nodes, nodes),
-        # numbers of the listed nodes; the bar of each node
-        _fields("listed bar", nodes, kind=np.int64),
+        # numbers of the listed nodes, and of those on a line with a slope; the bar of each node
+        _fields("listed pressed bar", nodes, kind=np.int64),
         _fields("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
-        _fields("settles_at_once", kind=np.int64),  # whether a sweep gives all nodes their forces at once
         _fields("lanes", kind=np.int64),  # that the nodes fill
     )
 
@@ -143,13 +146,19 @@ def second_order_record(modes: int) -> np.dtype:
     """Record of displacements of second order, of whole vectors of modes: see time_integration.quadratic_motion."""
     return aligned_record(
         # the amplitudes of the lowest modes and, behind them, what stiffens each product, at t_n and t_{n-1}; what pulls at
-        # each, and what pushes; their rows
-        _fields("functional last pull push", MOST_FUNCTIONALS),
+        # each; their rows
+        _fields("functional last pull", MOST_FUNCTIONALS),
+        _fields("push", MOST_QUADRATIC_MODES),  # on the lowest modes by that on the products
+        _fields("stepped", modes),  # 1 for modes, 0 for products
         _fields("rows", 1, MOST_FUNCTIONALS, modes),
-        # how often each product counts, and the stiffness that Q gives it; b/6, and the part of it that is of Q; its two modes
+        # b/6, by which the first product stiffens the last, and what all products stiffen each
+        _fields("cubic", MOST_PRODUCTS, padded(MOST_PRODUCTS)),
+        _fields("stiffened", padded(MOST_PRODUCTS)),
+        # how often each product counts, and the stiffness that Q gives it; the part of b/6 that is of Q; its two modes
         _fields("weight pull_left", MOST_PRODUCTS),
-        _fields("cubic left", MOST_PRODUCTS, MOST_PRODUCTS),
+        _fields("left", MOST_PRODUCTS, MOST_PRODUCTS),
         _fields("first second", MOST_PRODUCTS, kind=np.int64),
+        _fields("product_of", MOST_QUADRATIC_MODES, MOST_QUADRATIC_MODES, kind=np.int64),  # of two modes
         # B, and the sum of the squared products up to which it is surely not passed
         _fields("bound surely_within"),
         # functionals, whole vectors of them, products, and the lane of the first product

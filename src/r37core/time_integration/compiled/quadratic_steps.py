@@ -5,7 +5,7 @@ A force on them is one on the lowest modes. The elastic forces of second order a
 """
 
 from r37core.machine_code.alignment import LANES
-from r37core.machine_code.lanes import inlined, load, store
+from r37core.machine_code.lanes import inlined, load, spread, store
 
 from .steps import along, mode_lanes
 
@@ -27,29 +27,35 @@ def begin_quadratic(m):
 def set_products(m):
     """Set the products at t_n, how they have changed in the step, and the pull of each functional, from the functionals."""
     second = m.second
-    modes = second.functionals - second.products
-    for a in range(modes):
-        second.pull[a] = 0.0
+    modes, products = second.functionals - second.products, second.products
     squares = 0.0
-    for p in range(second.products):
-        a, b, i = second.first[p], second.second[p], second.lane + p
-        product = second.functional[a] * second.functional[b]
+    for p in range(products):
+        i = second.lane + p
+        product = second.functional[second.first[p]] * second.functional[second.second[p]]
         m.increment[i] = product - m.u[i]
         m.u[i] = product
+        second.pull[modes + p] = 0.5 * second.weight[p] * product
         squares += product * product
     reduction = 0.0
     if squares > second.surely_within:
         reduction = reduced(m)
-    for p in range(second.products):
-        a, b, stiffness = second.first[p], second.second[p], second.functional[modes + p]
-        for r in range(second.products):
-            stiffness += second.cubic[p, r] * m.u[second.lane + r]
+    for g in range(0, products, LANES):
+        even = odd = spread(0.0)
+        for r in range(0, products - 1, 2):
+            even += load(second.cubic, (r, g)) * m.u[second.lane + r]
+            odd += load(second.cubic, (r + 1, g)) * m.u[second.lane + r + 1]
+        if products % 2 != 0:
+            even += load(second.cubic, (products - 1, g)) * m.u[second.lane + products - 1]
+        store(second.stiffened, g, even + odd)
+    for p in range(products):
+        second.stiffened[p] += second.functional[modes + p]
         if reduction != 0.0:
-            stiffness += reduction * second.pull_left[p]
-        second.pull[a] += stiffness * second.functional[b]
-        if a != b:
-            second.pull[b] += stiffness * second.functional[a]
-        second.pull[modes + p] = 0.5 * second.weight[p] * m.u[second.lane + p]
+            second.stiffened[p] += reduction * second.pull_left[p]
+    for a in range(modes):
+        pull = 0.0
+        for b in range(modes):
+            pull += second.stiffened[second.product_of[a, b]] * second.functional[b]
+        second.pull[a] = pull
 
 
 @inlined
@@ -72,18 +78,33 @@ def reduced(m):
 def push_quadratic(m):
     """Add the elastic forces of second order at t_n to the pushes, and what pushes the products as it pushes the modes."""
     second = m.second
-    for g in range(0, second.lanes, LANES):
-        store(second.push, g, -load(second.pull, g))
-    for p in range(second.products):
-        a, b, i = second.first[p], second.second[p], second.lane + p
-        push = m.push[i]
-        second.push[a] += push * second.functional[b]
-        second.push[b] += push * second.functional[a]
-        m.push[i] = 0.0
+    if m.follows != 0:
+        push_products(m)
     for i in range(0, mode_lanes(m), LANES):
-        push = load(m.push, i)
-        for r in range(second.functionals):
-            push += load(second.rows, (0, r, i)) * second.push[r]
+        even, odd = load(m.push, i), spread(0.0)
+        for r in range(0, second.functionals - 1, 2):
+            even -= load(second.rows, (0, r, i)) * second.pull[r]
+            odd -= load(second.rows, (0, r + 1, i)) * second.pull[r + 1]
+        if second.functionals % 2 != 0:
+            even -= load(second.rows, (0, second.functionals - 1, i)) * second.pull[second.functionals - 1]
+        store(m.push, i, even + odd)
+
+
+@inlined
+def push_products(m):
+    """Let what pushes the products push the lowest modes: q_a q_b moves by q_b per q_a."""
+    second = m.second
+    modes = second.functionals - second.products
+    for a in range(modes):
+        push = 0.0
+        for b in range(modes):
+            share = m.push[second.lane + second.product_of[a, b]] * second.functional[b]
+            push += share + share if a == b else share
+        second.push[a] = push
+    for i in range(0, mode_lanes(m), LANES):
+        push = load(m.push, i) * load(second.stepped, i)
+        for a in range(modes):
+            push += load(second.rows, (0, a, i)) * second.push[a]
         store(m.push, i, push)
 
 
