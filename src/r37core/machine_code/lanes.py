@@ -19,8 +19,9 @@ from numba.extending import intrinsic, lower_builtin, models, register_model, ty
 
 from .alignment import LANES
 
-OPTIONS: dict[str, Any] = {"error_model": "numpy"}
-"""A division by zero is no error. Nothing lets the optimiser choose how numbers are rounded (numba's `fastmath`): what it chose
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
+"""A division by zero is no error. Nothing is counted that refers to an array: all lie in records, and counting takes a quarter
+of the time to compile. Nothing lets the optimiser choose how numbers are rounded (numba's `fastmath`): what it chose
 would change with the processor, and with what is compiled around a sum."""
 
 # wrappers for Python and C would be optimised and emitted, too, a quarter of all work, and nothing calls them

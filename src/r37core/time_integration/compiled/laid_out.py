@@ -219,7 +219,7 @@ class LaidOutProblem:
         m["outputs"][0, : len(outputs), columns] = outputs
         second = m["second"]
         second["rows"][0, :functionals, :modes] = quadratic.rows
-        second["stepped"][:modes] = 1.0
+        second["stepped"], second["stepped"][columns] = 1.0, 0.0
         second["weight"][:products], second["cubic"][:products, :products] = quadratic.weights, quadratic.cubic.T
         second["left"][:products, :products] = quadratic.left
         second["bound"], second["surely_within"] = quadratic.bound, quadratic.surely_within

@@ -149,7 +149,7 @@ def second_order_record(modes: int) -> np.dtype:
         # each; their rows
         _fields("functional last pull", MOST_FUNCTIONALS),
         _fields("push", MOST_QUADRATIC_MODES),  # on the lowest modes by that on the products
-        _fields("stepped", modes),  # 1 for modes, 0 for products
+        _fields("stepped", modes),  # 1, and 0 for products
         _fields("rows", 1, MOST_FUNCTIONALS, modes),
         # b/6, by which the first product stiffens the last, and what all products stiffen each
         _fields("cubic", MOST_PRODUCTS, padded(MOST_PRODUCTS)),
