@@ -145,25 +145,43 @@ def _push(m, counted):
 def _meet(m, place, lobes):
     """The forces on a blade after a step."""
     beyond = measure_exact_gaps(m, place, lobes) if EXACT_GAP else measure_gaps(m, place, lobes)
-    if not beyond:
-        if not PUBLISHED and m.follows != 0:
+    if PUBLISHED:
+        _correct(m, beyond, place)
+    else:
+        _press(m, beyond, place)
+    if beyond and (PUBLISHED or m.follows != 0):
+        measure_edge(m, place, lobes)
+
+
+@inlined
+def _correct(m, beyond, place):
+    """Correct the prediction by forces on nodes that are beyond lining or casing, as published."""
+    if m.lined != 0:
+        # before the forces open the gaps
+        follow_gaps(m, m.problem.gap, place)
+    if beyond:
+        work, lost = meet(m, place, load(m.block_energy, (0, 0)), load(m.block_energy, (1, 0)))
+        store(m.block_energy, (0, 0), work)
+        store(m.block_energy, (1, 0), lost)
+    else:
+        leave_casing(m)
+
+
+@inlined
+def _press(m, beyond, place):
+    """Find the forces at t_n, which the next step follows."""
+    if beyond:
+        m.follows = int(press_contact(m, place))
+    else:
+        if m.follows != 0:
             release_contact(m)
             m.follows = 0
         else:
             leave_casing(m)
-        if m.lined != 0:
-            follow_gaps(m, m.problem.gap, place)
-    elif PUBLISHED:
-        work, lost = meet(m, place, load(m.block_energy, (0, 0)), load(m.block_energy, (1, 0)))
-        store(m.block_energy, (0, 0), work)
-        store(m.block_energy, (1, 0), lost)
-        measure_edge(m, place, lobes)
-    else:
-        m.follows = int(press_contact(m, place))
-        if m.follows != 0:
-            measure_edge(m, place, lobes)
-        if m.lined != 0:
-            follow_gaps(m, m.contact.opened, place)
+        for g in range(0, node_lanes(m), LANES):
+            store(m.contact.opened, g, load(m.problem.gap, g))
+    if m.lined != 0:
+        follow_gaps(m, m.contact.opened, place)
 
 
 @inlined

@@ -257,11 +257,14 @@ def wear_passed_bars(m, k, penetration, turned, turned_before, line):
     if first >= end:
         return
     per_bar = (m.penetration[k] - penetration) / (last + turn - position)
-    depth, bar = penetration + per_bar * (first + 0.5 - position), bar_number(m, k, first + 0.5)
+    depth, bar, left = penetration + per_bar * (first + 0.5 - position), bar_number(m, k, first + 0.5), end - first
     # up to the end of the ring, and from its begin on
-    before_end = min(end - first, (k + 1) * bars - bar)
-    wear_along(m, k, bar, before_end, depth, per_bar, line)
-    wear_along(m, k, k * bars, end - first - before_end, depth + per_bar * before_end, per_bar, line)
+    while left > 0:
+        count = min(left, (k + 1) * bars - bar)
+        wear_along(m, k, bar, count, depth, per_bar, line)
+        depth += per_bar * count
+        left -= count
+        bar = k * bars
 
 
 @inlined
@@ -474,9 +477,6 @@ def push_modes(m, i, push, work, lost):
 @inlined
 def meet(m, place, work, lost):
     """Do a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
-    if m.lined != 0:
-        # which the forces are about to open
-        follow_gaps(m, m.problem.gap, place)
     for g in range(0, node_lanes(m), LANES):
         store(m.force, g, 0.0)
     if m.lined == 0 or press_lining(m, place):
