@@ -57,8 +57,8 @@ def take_laws(c, g, penetration, thickness, lined):
         plastic = load(c.offset, g) + load(c.plastic, g) * penetration
         casing = (penetration - thickness) * slope
         force = np.where(elastic < plastic, elastic, plastic)
-        of_bar = np.where(elastic < plastic, load(c.elastic, g), load(c.plastic, g))
-        slope = np.where(casing > force, slope, of_bar)
+        bar_slope = np.where(elastic < plastic, load(c.elastic, g), load(c.plastic, g))
+        slope = np.where(casing > force, slope, bar_slope)
         force = np.where(casing > force, casing, force)
     listed = flags_of(c.found[g // LANES])
     store(c.slope, g, np.where(listed, np.where(force < 0.0, 0.0, slope), 0.0))
@@ -90,7 +90,7 @@ def settle_forces(c, count, largest_gap, thickness, lined):
             force = take_laws(c, g, penetration, thickness, lined)
             changed |= bits_of(np.abs(force - before) * own > TOLERANCE * largest_gap)
             store(c.opened, g, opened)
-            store(c.at_zero, g, force - load(c.slope, g) * (penetration + load(c.gap, g)))
+            store(c.intercept, g, force - load(c.slope, g) * (penetration + load(c.gap, g)))
             store(c.pressure, g, force)
         if changed == 0:
             return 0.0
@@ -115,7 +115,7 @@ def solve_pieces(c, count):
         for j in range(pressed):
             k = c.pressed[j]
             store(c.left, (j, g), np.where(flag_at(k - g), 1.0, slope * load(c.columns, (k, g))))
-        store(c.left, (pressed, g), load(c.at_zero, g))
+        store(c.left, (pressed, g), load(c.intercept, g))
         store(c.pressure, g, 0.0)
     for j in range(pressed):
         k = c.pressed[j]
@@ -140,9 +140,9 @@ def sweep_nodes(c, count, largest_gap, thickness, lined):
             k = c.listed[j]
             g = k // LANES * LANES
             # of the eight nodes that it is one of
-            store(c.at_zero, g, take_laws(c, g, load(c.own, g) * c.pressure[k] - load(c.opened, g), thickness, lined))
-            step = c.at_zero[k] - c.pressure[k]
-            c.pressure[k] = c.at_zero[k]
+            store(c.intercept, g, take_laws(c, g, load(c.own, g) * c.pressure[k] - load(c.opened, g), thickness, lined))
+            step = c.intercept[k] - c.pressure[k]
+            c.pressure[k] = c.intercept[k]
             largest = max(largest, abs(step) * c.own[k])
             for g in range(0, lanes, LANES):
                 store(c.opened, g, load(c.opened, g) + load(c.columns, (k, g)) * step)

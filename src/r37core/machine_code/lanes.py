@@ -4,6 +4,11 @@ The operators + - * / < > and np.sqrt, np.where, np.maximum and np.abs act on ev
 lanes. So a formula in NumPy can be applied to arrays as it stands, and to lanes once it is compiled. Eight numbers fill one
 register with AVX-512, two with AVX2, four with SSE2 or NEON. Made with numba's extension interface (numba.extending).
 
+What they are for is the sum over modes: of plain loops LLVM makes vectors as it happens, and one of 8 rows of 32 modes takes 19
+to 163 ns by how its line is written. A march of plain loops takes 1.4 to 2.6 times as long, and with lanes in the sums over
+modes alone 1.5 to 1.7. Constants of a program (program_constants) are not flags, as these make it 1.05 to 1.09 times as long,
+and its compilation 1.75 times.
+
 Imported only where something is compiled, never by a simulation job that finds it compiled.
 """
 

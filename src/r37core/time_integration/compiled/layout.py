@@ -109,7 +109,7 @@ def contact_record(nodes: int) -> np.dtype:
         _fields("own stiffness area wear elastic offset plastic", nodes),
         # the line that each law is on, its slope (N/m) and its force (N) where no node is pressed; what is left of the linear
         # problem, and one over its pivots
-        _fields("slope at_zero inverse", nodes),
+        _fields("slope intercept inverse", nodes),
         _fields("left", nodes + 1, nodes),
         # opening of the last node's gap per force on the one before (m/N)
         _fields("columns", nodes, nodes),

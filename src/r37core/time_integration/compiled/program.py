@@ -4,6 +4,28 @@ It takes one blade, or all blades that press one elastic casing: these do a step
 record, and in it the casing's modes, in the rotor's frame that all share. Between contacts these move by themselves, alike in
 all records. A step's pushes on them are summed over the blades, and each record takes the sum: so the casing's motion has the
 same bits in all. Its work and loss count in the first record; the others are laid out without its loss.
+
+A step follows docs/simulation.md. Equations in the order of that page, and the functions that are them:
+
+| equation | function |
+|---|---|
+| Motion: modes of one speed | rom.contact_model.ContactModel.modes_at |
+| Time integration: a, b, c | time_integration.integrators: exact_modal, central_difference |
+| ... d = k d - p q, q + d | steps.predict |
+| ... + c F, work and loss | steps.push_lanes; F = phi^T f of the nodes: steps.sum_pushes |
+| Directions: n, y, m | contact.casing.casing_axes; sums over modes: steps.displaced |
+| Gap: c0 - A (1 - e^(-rho t)) f - n | steps.measure_gaps; f at every step: contact.laws.lobe_shape |
+| ... exact | steps.measure_exact_gaps, contact.laws.displaced_position |
+| Friction: -mu N v/|v| | contact.laws.friction_direction, steps.set_friction |
+| Direct contact, at t_n | contact.node_forces.settle_forces |
+| ... for q_{n+1} | steps.press_casing, contact.complementarity.solve_complementarity |
+| Lining: return mapping | contact.laws.return_mapping, for q_{n+1}: steps.press_lining |
+| ... at t_n, in series with the node | contact.laws.lines_of_bar, contact.node_forces.take_laws; wear: contact.laws.worn |
+| Contact at long steps: R, G | time_integration.static_modes.residual_flexibility, contact_steps.set_column |
+| ... all nodes one problem | contact_steps.press_contact |
+| ... every bar passed is worn | steps.follow_gaps, steps.wear_passed_bars |
+| Large displacements: V, f | quadratic_steps.set_products, quadratic_steps.push_quadratic |
+| Flexible casing: its modes in the rotor's frame | steps.turn_step |
 """
 
 import numba

@@ -1,4 +1,4 @@
-"""The steps of the compiled engine, one function for each thing that happens in a step. Compiled for what a scene has.
+"""The steps of the compiled engine in the order of docs/simulation.md, a function for each thing that happens in one.
 
 Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* = a u_n + b u_{n-1}; where a tip node passes the
 lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is the same
@@ -39,6 +39,9 @@ _lobe_shape = inlined(lobe_shape)
 _line_of_wear = inlined(line_of_wear)
 
 
+# Numbers of a record
+
+
 @inlined
 def mode_lanes(m):
     """Number of lanes that the modes fill."""
@@ -74,6 +77,9 @@ def displaced(m, direction, g):
     return along(m.displacement_operator, direction, m.u, g, mode_lanes(m))
 
 
+# Time integration
+
+
 @inlined
 def predict(m, lost):
     """The free step of every mode; returns `lost` and the energy it loses, in lanes."""
@@ -85,6 +91,78 @@ def predict(m, lost):
         store(m.u, i, u + d)
         lost += load(m.speed.loss, i) * ((d + last) * (d + last))
     return lost
+
+
+@inlined
+def sum_pushes(m):
+    """Put into the pushes what the forces on all pressed nodes are to the modes; returns whether any node is pressed."""
+    p, count = m.problem, list_pressed(m)
+    if count == 0:
+        return False
+    m.totals.steps_in_contact += 1.0
+    largest = m.totals.largest_force
+    for j in range(count):
+        largest = max(largest, -m.force[p.listed[j]])
+    m.totals.largest_force = largest
+    if count % 2 != 0:
+        add_pushes(m, p.listed[0], p.listed[0], False)
+    for j in range(count % 2, count, 2):
+        add_pushes(m, p.listed[j], p.listed[j + 1], True)
+    return True
+
+
+@inlined
+def add_pushes(m, first, second, both):
+    """Add what the forces of two nodes, or of the first alone, are to all modes.
+
+    Two at once, because a sum that is kept in memory waits for its last store.
+    """
+    # loaded once: a store may change them, for all that the compiler knows
+    first_force = m.force[first], m.friction_force[0, first], m.friction_force[1, first]
+    second_force = m.force[second], m.friction_force[0, second], m.friction_force[1, second]
+    for i in range(0, mode_lanes(m), LANES):
+        push = pushed(m.displacement_operator, first, i, first_force, load(m.push, i))
+        if both:
+            push = pushed(m.displacement_operator, second, i, second_force, push)
+        store(m.push, i, push)
+
+
+@inlined
+def pushed(rows, k, i, force, push):
+    """`push` on the eight modes from i on and what a node's `force`, normal, tangential and meridional, adds to it."""
+    normal, tangential, meridional = force
+    push += load(rows, (NORMAL, k, i)) * normal
+    push += load(rows, (TANGENTIAL, k, i)) * tangential
+    push += load(rows, (MERIDIONAL, k, i)) * meridional
+    return push
+
+
+@inlined
+def push_lanes(m, first, end, work, lost):
+    """Push the modes from the `first` lane to the `end`; adds the work, doubled, and the energy lost."""
+    for i in range(first, end, LANES):
+        work, lost = push_modes(m, i, load(m.push, i), work, lost)
+        # the sums of the next step begin so
+        store(m.push, i, 0.0)
+    return work, lost
+
+
+@inlined
+def push_modes(m, i, push, work, lost):
+    """Add a push to the eight modes from i on; adds its work, doubled, and loss."""
+    free = load(m.increment, i) + load(m.last_increment, i)
+    pushed = load(m.speed.inverse, i) * push
+    store(m.increment, i, load(m.increment, i) + pushed)
+    store(m.u, i, load(m.u, i) + pushed)
+    return work + push * (free + pushed), lost + load(m.speed.loss, i) * (pushed * (free + free + pushed))
+
+
+@inlined
+def push_blade(m, work, lost):
+    """Correct displacement and increment for the forces; adds the work, doubled, and the energy lost."""
+    if sum_pushes(m):
+        work, lost = push_lanes(m, 0, mode_lanes(m), work, lost)
+    return work, lost
 
 
 @inlined
@@ -104,6 +182,9 @@ def _turn(m, amplitudes):
         c, s = load(amplitudes, first + j), load(amplitudes, first + pairs + j)
         store(amplitudes, first + j, cosine * c - sine * s)
         store(amplitudes, first + pairs + j, sine * c + cosine * s)
+
+
+# Gap
 
 
 @inlined
@@ -143,6 +224,9 @@ def measure_exact_gaps(m, place, lobes):
             m.beyond[k // LANES] |= 1 << (k % LANES)
             any_beyond = True
     return any_beyond
+
+
+# Friction
 
 
 @inlined
@@ -200,6 +284,99 @@ def friction_response(m, table, k, g):
 
 
 @inlined
+def set_friction_force(m):
+    """Friction of the forces on all nodes."""
+    for g in range(0, node_lanes(m), LANES):
+        normal = load(m.force, g)
+        store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
+        store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
+        heat(m, g, normal)
+
+
+@inlined
+def heat(m, g, normal):
+    """Add the work of the friction of `normal` forces on the nodes from g on, against their sliding in this step."""
+    m.totals.friction_heat -= m.friction * sum_of_lanes(normal * load(m.sliding, (1, g)))
+
+
+@inlined
+def list_pressed(m):
+    """List the nodes that a force presses; returns how many."""
+    for g in range(0, node_lanes(m), LANES):
+        m.problem.wrong[g // LANES] = bits_of(load(m.force, g) < 0.0)
+    return list_nodes(m.problem.wrong, m.problem.listed)
+
+
+# Direct contact
+
+
+@inlined
+def press_casing(m):
+    """Add the Lagrange multipliers of direct contact, keep the set of touching nodes."""
+    p = m.problem
+    if m.follows_sliding != 0:
+        # the others' reaction may bring any of them to the casing
+        set_friction_against_last(m)
+    for k in range(m.nodes):
+        for g in range(0, node_lanes(m), LANES):
+            store(m.response, (k, g), friction_response(m, m.speed.coupling, k, g))
+    guessed = 0
+    for g in range(node_lanes(m) // LANES):
+        p.touching[g] = m.touched[g]
+        guessed |= m.touched[g]
+    if guessed == 0:
+        for g in range(0, node_lanes(m), LANES):
+            p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0)
+    violation = solve_complementarity(p, m.response)
+    m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
+    for g in range(0, node_lanes(m), LANES):
+        multiplier = load(p.multiplier, g)
+        store(m.force, g, load(m.force, g) - multiplier)
+        touching = bits_of(multiplier > 0.0)
+        p.wrong[g // LANES] = touching & ~m.touched[g // LANES]
+        m.touched[g // LANES] = touching
+    m.totals.casing_hits += list_nodes(p.wrong, p.listed)
+
+
+@inlined
+def leave_casing(m):
+    """Note that no node touches the casing."""
+    for g in range(node_lanes(m) // LANES):
+        m.touched[g] = 0
+
+
+# Lining
+
+
+@inlined
+def press_lining(m, place):
+    """Normal forces of the bars that the nodes press, which wear them; whether a node reaches the casing behind the lining."""
+    p, lining, wear = m.problem, m.lining, numbers_at(m.call.wear)
+    count = list_nodes(m.beyond, p.listed)
+    if m.follows_sliding != 0:
+        # the same sums
+        if count > FEW_NODES:
+            set_friction_against_last(m)
+        else:
+            set_friction_of_listed(m, p.listed, count)
+    for j in range(count):
+        k = p.listed[j]
+        bar = bar_at(m, k, place)
+        stress, new = _return_mapping(-p.gap[k], wear[bar], lining.elastic_modulus, lining)
+        wear_bar(m, k, bar, new)
+        m.force[k] = -stress * m.contact.area[k]
+    any_closed = 0
+    for g in range(0, node_lanes(m), LANES):
+        gap = load(p.gap, g) + lining.thickness
+        for j in range(count):
+            k = p.listed[j]
+            gap -= friction_response(m, m.speed.coupling, k, g) * m.force[k]
+        store(p.gap, g, gap)
+        any_closed |= bits_of(gap < 0.0)
+    return any_closed != 0
+
+
+@inlined
 def turned_bars(m, place):
     """Bars by which the rotor has turned at a step of a revolution."""
     return place * m.lining.bars / m.steps_per_revolution
@@ -240,6 +417,28 @@ def wear_bar(m, k, bar, new):
         m.worn += (new - wear[bar]) * m.bar_surface[k]
         m.largest_wear = max(m.largest_wear, new)
         wear[bar] = new
+
+
+@inlined
+def follow_gaps(m, gaps, place):
+    """Take the gaps (m) to the unworn lining at a step's end, and wear the bars that nodes have passed while pressing them."""
+    for g in range(0, node_lanes(m), LANES):
+        passing = bits_of(load(gaps, g) < 0.0) | bits_of(load(m.penetration, g) > 0.0)
+        if passing != 0:
+            wear_passed_rings(m, g, passing, gaps, place)
+    take_gaps(m, gaps, place)
+
+
+@inlined
+def wear_passed_rings(m, g, passing, gaps, place):
+    """Wear the bars that the `passing` ones of the eight nodes from g on have passed in a step, with `gaps` (m) at its end."""
+    turned = turned_bars(m, place)
+    turned_before = turned_bars(m, (place if place > 0 else m.steps_per_revolution) - 1)
+    line = _line_of_wear(m.lining)
+    while passing:
+        k = g + first_bit(passing)
+        passing &= passing - 1
+        wear_passed_bars(m, k, -gaps[k], turned, turned_before, line)
 
 
 @inlined
@@ -291,28 +490,6 @@ def wear_along(m, k, bar, count, depth, per_bar, line):
 
 
 @inlined
-def follow_gaps(m, gaps, place):
-    """Take the gaps (m) to the unworn lining at a step's end, and wear the bars that nodes have passed while pressing them."""
-    for g in range(0, node_lanes(m), LANES):
-        passing = bits_of(load(gaps, g) < 0.0) | bits_of(load(m.penetration, g) > 0.0)
-        if passing != 0:
-            wear_passed_rings(m, g, passing, gaps, place)
-    take_gaps(m, gaps, place)
-
-
-@inlined
-def wear_passed_rings(m, g, passing, gaps, place):
-    """Wear the bars that the `passing` ones of the eight nodes from g on have passed in a step, with `gaps` (m) at its end."""
-    turned = turned_bars(m, place)
-    turned_before = turned_bars(m, (place if place > 0 else m.steps_per_revolution) - 1)
-    line = _line_of_wear(m.lining)
-    while passing:
-        k = g + first_bit(passing)
-        passing &= passing - 1
-        wear_passed_bars(m, k, -gaps[k], turned, turned_before, line)
-
-
-@inlined
 def take_gaps(m, gaps, place):
     """Take the gaps (m) to the unworn lining as those at t_n."""
     for g in range(0, node_lanes(m), LANES):
@@ -322,156 +499,7 @@ def take_gaps(m, gaps, place):
             m.last_position[k] = bar_position(m, k, turned_bars(m, place))
 
 
-@inlined
-def press_lining(m, place):
-    """Normal forces of the bars that the nodes press, which wear them; whether a node reaches the casing behind the lining."""
-    p, lining, wear = m.problem, m.lining, numbers_at(m.call.wear)
-    count = list_nodes(m.beyond, p.listed)
-    if m.follows_sliding != 0:
-        # the same sums
-        if count > FEW_NODES:
-            set_friction_against_last(m)
-        else:
-            set_friction_of_listed(m, p.listed, count)
-    for j in range(count):
-        k = p.listed[j]
-        bar = bar_at(m, k, place)
-        stress, new = _return_mapping(-p.gap[k], wear[bar], lining.elastic_modulus, lining)
-        wear_bar(m, k, bar, new)
-        m.force[k] = -stress * m.contact.area[k]
-    any_closed = 0
-    for g in range(0, node_lanes(m), LANES):
-        gap = load(p.gap, g) + lining.thickness
-        for j in range(count):
-            k = p.listed[j]
-            gap -= friction_response(m, m.speed.coupling, k, g) * m.force[k]
-        store(p.gap, g, gap)
-        any_closed |= bits_of(gap < 0.0)
-    return any_closed != 0
-
-
-@inlined
-def press_casing(m):
-    """Add the Lagrange multipliers of direct contact, keep the set of touching nodes."""
-    p = m.problem
-    if m.follows_sliding != 0:
-        # the others' reaction may bring any of them to the casing
-        set_friction_against_last(m)
-    for k in range(m.nodes):
-        for g in range(0, node_lanes(m), LANES):
-            store(m.response, (k, g), friction_response(m, m.speed.coupling, k, g))
-    guessed = 0
-    for g in range(node_lanes(m) // LANES):
-        p.touching[g] = m.touched[g]
-        guessed |= m.touched[g]
-    if guessed == 0:
-        for g in range(0, node_lanes(m), LANES):
-            p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0)
-    violation = solve_complementarity(p, m.response)
-    m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
-    for g in range(0, node_lanes(m), LANES):
-        multiplier = load(p.multiplier, g)
-        store(m.force, g, load(m.force, g) - multiplier)
-        touching = bits_of(multiplier > 0.0)
-        p.wrong[g // LANES] = touching & ~m.touched[g // LANES]
-        m.touched[g // LANES] = touching
-    m.totals.casing_hits += list_nodes(p.wrong, p.listed)
-
-
-@inlined
-def list_pressed(m):
-    """List the nodes that a force presses; returns how many."""
-    for g in range(0, node_lanes(m), LANES):
-        m.problem.wrong[g // LANES] = bits_of(load(m.force, g) < 0.0)
-    return list_nodes(m.problem.wrong, m.problem.listed)
-
-
-@inlined
-def set_friction_force(m):
-    """Friction of the forces on all nodes."""
-    for g in range(0, node_lanes(m), LANES):
-        normal = load(m.force, g)
-        store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
-        store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
-        heat(m, g, normal)
-
-
-@inlined
-def heat(m, g, normal):
-    """Add the work of the friction of `normal` forces on the nodes from g on, against their sliding in this step."""
-    m.totals.friction_heat -= m.friction * sum_of_lanes(normal * load(m.sliding, (1, g)))
-
-
-@inlined
-def push_blade(m, work, lost):
-    """Correct displacement and increment for the forces; adds the work, doubled, and the energy lost."""
-    if sum_pushes(m):
-        work, lost = push_lanes(m, 0, mode_lanes(m), work, lost)
-    return work, lost
-
-
-@inlined
-def sum_pushes(m):
-    """Put into the pushes what the forces on all pressed nodes are to the modes; returns whether any node is pressed."""
-    p, count = m.problem, list_pressed(m)
-    if count == 0:
-        return False
-    m.totals.steps_in_contact += 1.0
-    largest = m.totals.largest_force
-    for j in range(count):
-        largest = max(largest, -m.force[p.listed[j]])
-    m.totals.largest_force = largest
-    if count % 2 != 0:
-        add_pushes(m, p.listed[0], p.listed[0], False)
-    for j in range(count % 2, count, 2):
-        add_pushes(m, p.listed[j], p.listed[j + 1], True)
-    return True
-
-
-@inlined
-def push_lanes(m, first, end, work, lost):
-    """Push the modes from the `first` lane to the `end`; adds the work, doubled, and the energy lost."""
-    for i in range(first, end, LANES):
-        work, lost = push_modes(m, i, load(m.push, i), work, lost)
-        # the sums of the next step begin so
-        store(m.push, i, 0.0)
-    return work, lost
-
-
-@inlined
-def add_pushes(m, first, second, both):
-    """Add what the forces of two nodes, or of the first alone, are to all modes.
-
-    Two at once, because a sum that is kept in memory waits for its last store.
-    """
-    # loaded once: a store may change them, for all that the compiler knows
-    first_force = m.force[first], m.friction_force[0, first], m.friction_force[1, first]
-    second_force = m.force[second], m.friction_force[0, second], m.friction_force[1, second]
-    for i in range(0, mode_lanes(m), LANES):
-        push = pushed(m.displacement_operator, first, i, first_force, load(m.push, i))
-        if both:
-            push = pushed(m.displacement_operator, second, i, second_force, push)
-        store(m.push, i, push)
-
-
-@inlined
-def pushed(rows, k, i, force, push):
-    """`push` on the eight modes from i on and what a node's `force`, normal, tangential and meridional, adds to it."""
-    normal, tangential, meridional = force
-    push += load(rows, (NORMAL, k, i)) * normal
-    push += load(rows, (TANGENTIAL, k, i)) * tangential
-    push += load(rows, (MERIDIONAL, k, i)) * meridional
-    return push
-
-
-@inlined
-def push_modes(m, i, push, work, lost):
-    """Add a push to the eight modes from i on; adds its work, doubled, and loss."""
-    free = load(m.increment, i) + load(m.last_increment, i)
-    pushed = load(m.speed.inverse, i) * push
-    store(m.increment, i, load(m.increment, i) + pushed)
-    store(m.u, i, load(m.u, i) + pushed)
-    return work + push * (free + pushed), lost + load(m.speed.loss, i) * (pushed * (free + free + pushed))
+# A published step in contact, and what is kept
 
 
 @inlined
@@ -485,13 +513,6 @@ def meet(m, place, work, lost):
         leave_casing(m)
     set_friction_force(m)
     return push_blade(m, work, lost)
-
-
-@inlined
-def leave_casing(m):
-    """Note that no node touches the casing."""
-    for g in range(node_lanes(m) // LANES):
-        m.touched[g] = 0
 
 
 @inlined
