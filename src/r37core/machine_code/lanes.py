@@ -7,7 +7,7 @@ register with AVX-512, two with AVX2, four with SSE2 or NEON. Made with numba's 
 What they are for is the sum over modes: of plain loops LLVM makes vectors as it happens, and one of 8 rows of 32 modes takes 19
 to 163 ns by how its line is written. A march of plain loops takes 1.4 to 2.6 times as long, and with lanes in the sums over
 modes alone 1.5 to 1.7. Constants of a program (program_constants) are not flags, as these make it 1.05 to 1.09 times as long,
-and its compilation 1.75 times.
+and its compilation half as long again at least.
 
 Imported only where something is compiled, never by a simulation job that finds it compiled.
 """
@@ -25,7 +25,7 @@ from numba.extending import intrinsic, lower_builtin, models, register_model, ty
 from .alignment import LANES
 
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
-"""A division by zero is no error. Nothing is counted that refers to an array: all lie in records, and counting takes a quarter
+"""A division by zero is no error. Nothing is counted that refers to an array: all lie in records, and counting takes a seventh
 of the time to compile. Nothing lets the optimiser choose how numbers are rounded (numba's `fastmath`): what it chose
 would change with the processor, and with what is compiled around a sum."""
 
