@@ -96,7 +96,7 @@ def _worst(parts: np.ndarray, columns: np.ndarray) -> np.ndarray:
 
 
 def _in_blocks(function: Callable[[np.ndarray], np.ndarray], columns: np.ndarray, per_revolution: int) -> np.ndarray:
-    """What a function gives of blocks of whole revolutions, one after another."""
+    """Results of a function over all instants, applied to a block of whole revolutions at a time."""
     length = _AT_ONCE * per_revolution
     return np.concatenate([function(columns[:, first : first + length]) for first in range(0, columns.shape[1], length)])
 
