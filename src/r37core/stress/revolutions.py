@@ -66,7 +66,7 @@ def _all(parts: np.ndarray, columns: np.ndarray, per_revolution: int) -> np.ndar
     """
     first, second = np.triu_indices(len(columns))
     weights = (parts[..., first] * parts[..., second]).sum(axis=0) * np.where(first == second, 1.0, 2.0).astype(np.float32)
-    return _in_blocks(lambda block: (weights @ (block[first] * block[second])).max(axis=0), columns, per_revolution)
+    return _blockwise(lambda block: (weights @ (block[first] * block[second])).max(axis=0), columns, per_revolution)
 
 
 def _searched(parts: np.ndarray, columns: np.ndarray, per_revolution: int) -> np.ndarray:
@@ -80,7 +80,7 @@ def _searched(parts: np.ndarray, columns: np.ndarray, per_revolution: int) -> np
     nodes = new = np.unique(_squares(parts, columns[:, -per_revolution:]).argmax(axis=0))
     largest, seen = np.zeros(columns.shape[1], dtype=np.float32), np.zeros(columns.shape[1], dtype=bool)
     while len(new):
-        np.maximum(largest, _in_blocks(partial(_worst, parts[:, new]), columns, per_revolution), out=largest)
+        np.maximum(largest, _blockwise(partial(_worst, parts[:, new]), columns, per_revolution), out=largest)
         worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions
         worst = worst[~seen[worst]]
         squares = _squares(parts, columns[:, worst])
@@ -95,7 +95,7 @@ def _worst(parts: np.ndarray, columns: np.ndarray) -> np.ndarray:
     return _squares(parts, columns).max(axis=0)
 
 
-def _in_blocks(function: Callable[[np.ndarray], np.ndarray], columns: np.ndarray, per_revolution: int) -> np.ndarray:
+def _blockwise(function: Callable[[np.ndarray], np.ndarray], columns: np.ndarray, per_revolution: int) -> np.ndarray:
     """Results of a function over all instants, applied to a block of whole revolutions at a time."""
     length = _AT_ONCE * per_revolution
     return np.concatenate([function(columns[:, first : first + length]) for first in range(0, columns.shape[1], length)])

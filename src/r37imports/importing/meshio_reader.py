@@ -62,7 +62,7 @@ def read_msh(file: Path) -> RawMesh:
         wanted = [group] if is_old else entities
         pairs = zip(mesh.cells, numbers, strict=True)
         # a group names a surface that is turned round by a negative number
-        parts = [block.data[np.isin(np.abs(of), wanted)].ravel() for block, of in pairs if block.dim == dimension]
+        parts = [block.data[np.isin(np.abs(own), wanted)].ravel() for block, own in pairs if block.dim == dimension]
         nodes = np.concatenate([np.empty(0, dtype=int), *parts])
         sets += [(name, nodes) for name in (f"gmsh:physical={group}", names.get((dimension, group))) if name]
     mesh.cell_data.pop("gmsh:physical", None)
