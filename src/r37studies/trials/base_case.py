@@ -29,8 +29,8 @@ Keys: SPEEDS, LEVEL; those of a scene in scenes.yaml, as `scene.lining.bars`; fi
 SPEEDS, LEVEL = "base.speeds", "base.level"
 """Keys: speeds as shares of the crossing's, or the one that three lie about; fidelity level."""
 
-CLEARANCE = "casing.clearance_m"
-"""Key of a scene: the clearance, which is the cold one in a scene that has that."""
+CLEARANCE, LOBES = "casing.clearance_m", "casing.amplitude_clearances"
+"""Keys of a scene: the clearance, which is the cold one in a scene that has that, and the height of its lobes."""
 
 
 def some_of(varied: Collection[str]) -> Any:
@@ -90,7 +90,8 @@ class BaseCase:
         )
         settings, chosen, speeds = self.settings, self.settings.blades[blade], changes[SPEEDS]
         level = settings.levels[changes.get(LEVEL, self._section.base or settings.fidelity_name)]
-        if chosen.is_matrices and model:
+        # matrices have contact nodes, and no stress
+        if chosen.is_matrices and (model or "snapshots_per_revolution" in choice):
             return f"{blade} is given by matrices"
         if "nodes" in model and not chosen.has_profiles:
             return f"{blade} is given by a mesh"
@@ -101,6 +102,8 @@ class BaseCase:
         integration = replace(level.time_integration.choice(made), **choice)
         if "stress" not in results:
             integration = replace(integration, snapshots_per_revolution=0)
+        elif integration.samples_per_revolution % integration.snapshots_per_revolution:
+            return "stress is at samples of the motion alone"
         return Case(
             blade=blade,
             model=self._model(blade, level, model),
@@ -146,7 +149,7 @@ def _changed(entry: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
     """
     casing = dict(entry["casing"])
     cold = "casing.clearance.cold_m" if "clearance" in casing else CLEARANCE
-    if "amplitude_m" in casing and CLEARANCE in changes:
+    if "amplitude_m" in casing and {CLEARANCE, LOBES} & set(changes):
         clearance = casing["clearance"]["cold_m"] if "clearance" in casing else casing["clearance_m"]
         casing["amplitude_clearances"] = casing.pop("amplitude_m") / clearance
         entry = {**entry, "casing": casing}

@@ -22,11 +22,14 @@ PARAMETERS: Varied = {
     "level": {LEVEL: ()},
     "central_difference_step": {"choice.time_step": (4.0e-7, 2.0e-7, 1.0e-7, 5.0e-8, 2.5e-8), **_CENTRAL_DIFFERENCE},
     "exact_modal_step": {"choice.time_step": (9.6e-6, 6.4e-6, 4.8e-6, 3.2e-6, 2.4e-6, 1.6e-6, 8.0e-7), **_EXACT_MODAL},
+    "static_above": {"choice.static_above": (0.25, 0.5, 1.5, 2.0, 1.0)},
     "revolutions": {"choice.revolutions": (25, 50, 100, 200, 400, 800)},
     "mesh_nodes": {"model.nodes": (2500, 5000, 10000, 20000, 40000)},
     "boundary_nodes": {"model.boundary_nodes": (2, 4, 8, 15)},
     "fixed_interface_modes": {"model.fixed_interface_modes": (0, 3, 10, 20, 40)},
+    "highest_frequency": {"choice.highest_frequency": (2.0e4, 5.0e4, 1.0e5, 2.0e5, 1.0e7)},
     "bars": {"scene.lining.bars": (300, 1000, 3000, 10000, 30000, 100000)},
+    "stress_instants": {"choice.snapshots_per_revolution": (8, 31, 62, 248)},
     "friction_form": {"scene.friction.form": ("vector", "constant")},
 }
 """Parameter -> its values, the last of which the others are compared with; of the level all that there are."""
