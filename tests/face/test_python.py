@@ -441,7 +441,7 @@ def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys
     xr.testing.assert_identical(dataset, r37.campbell("Ref"))
     assert f"{dataset['crossing_speed'].sel(mode='1B', engine_order=4).item():.6g}" in told[0]
     assert told[1].startswith(f"Ref\n{told[0]}L50\n") and told[1].count("1B") == 2
-    assert "blades: Ref, CS100\n" in told[2] and "simulations: 12\n" in told[2]
+    assert "blades: Ref, CS100\n" in told[2] and "simulations: sweep 12\n" in told[2]
 
 
 @pytest.mark.parametrize("file", [3.5, 300 * "x", "a\0b", "a\nb", ".", "/dev/zero", []])
@@ -474,7 +474,10 @@ def test_the_command_refuses_in_one_line(root, capsys, tmp_path):
     assert told.out == "" and told.err.startswith("r37: blade: found 'Rex'; allowed: Ref") and told.err.count("\n") == 1
     assert main(["check", "missing.yaml"]) == 1
     assert main(["check", config]) == 0
-    assert "level: standard\nsimulations: 896 to about 2842\ntheir CPU time: about 4.74 minutes" in capsys.readouterr().out
+    assert (
+        "level: standard\nsimulations: sweep about 2842, as results ask (896 at least)\nCPU time: about 11.9 minutes"
+        in capsys.readouterr().out
+    )
 
 
 def test_an_interrupted_command_says_so_in_a_line(monkeypatch, capsys):

@@ -111,7 +111,7 @@ def test_what_goes_beside_what(monkeypatch):
     (memory,) = map(int, re.findall(r"--resources mem_mb=(\d+) ", makefile))
     modules = {name: item.step.split(".")[1] for name, item in plan.items.items()}
     alone = {name for name, module in modules.items() if module in ("assess", "tutorial", "user_code")}
-    alone |= {"product_estimate_standard", "product_estimate_to_decide"}
+    alone |= {"product_estimate_benchmark", "product_estimate_to_decide", "cost_growth", "cost_of_studies"}
     threads = {name: plan.threads(name, 8) for name in [*modules, *(f"product_{name}" for name in plan.runs)]}
     assert {name for name, count in threads.items() if count == 8} == alone
     assert {name for name, count in threads.items() if count == 4} == {f"product_{name}" for name in plan.runs} - alone
