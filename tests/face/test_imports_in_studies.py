@@ -115,7 +115,7 @@ def test_the_folder_of_a_call_finds_sections_and_meridians(tmp_path):
 def test_what_is_varied_of_matrices(settings_with):
     """The model is the run's own."""
     settings = settings_with(MATRICES)
-    model = {"mesh_nodes", "boundary_nodes", "fixed_interface_modes"}
+    model = {"mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_instants"}
     reasons = {name.partition("/")[0]: case for name, case in tradeoff.cases(settings).items() if isinstance(case, str)}
     assert reasons == dict.fromkeys(model, "Fan is given by matrices")
     inputs = Trials(settings).inputs(SimpleNamespace(preset="tradeoff", case="revolutions/25__direct"))

@@ -117,9 +117,14 @@ def test_elements_of_ansys_that_are_no_solids_are_left_out(number, tmp_path):
     rows = {154: range(1, 9), 200: range(1, 9), 21: [1], 14: [1, 2]}[number]
     extra = "".join(f"{field:9}" for field in (1, 2, 1, 1, 0, 0, 0, 0, len(rows), 0, 99, *rows))
     text = (tmp_path / "mesh.cdb").read_text().replace("ET,1,186", f"ET,1,186\nET,2,{number}")
-    (tmp_path / "mesh.cdb").write_text(text.replace("       -1\nFINISH", f"{extra}\n       -1\nFINISH"))
-    with pytest.warns(MeshWarning, match=rf"elements of the types {number} of Ansys are no solids, and are left out"):
-        assert list(read_ansys(tmp_path / "mesh.cdb").blocks) == ["hexahedron20"]
+    whole, block = (
+        text.replace("       -1\nFINISH", f"{extra}\n       -1\nFINISH"),
+        f"ETBLOCK,1,1\n(2i9,19a9)\n{2:9}{number:9}\n       -1",
+    )
+    for kind in (f"ET,2,{number}", f"et,2,NAME{number}", block):
+        (tmp_path / "mesh.cdb").write_text(whole.replace(f"ET,2,{number}", kind))
+        with pytest.warns(MeshWarning, match=rf"elements of the types {number} of Ansys are no solids, and are left out"):
+            assert list(read_ansys(tmp_path / "mesh.cdb").blocks) == ["hexahedron20"]
     (tmp_path / "mesh.cdb").write_text(text.replace(f"ET,2,{number}", "ETBLOCK,1,1\n(2i9,19a9)\n        2       64\n       -1"))
     with refused("found elements of type SOLID64; allowed: SOLID185"):
         read_ansys(tmp_path / "mesh.cdb")
@@ -205,6 +210,39 @@ def test_a_surface_counts_in_every_group_that_names_it(tmp_path, suffix, version
     assert len(import_mesh(source(file, root=Where(("encastré",)), **rules))[0].node_set("root")) == len(bottom)
     with refused(r"'gauges' caught \d+ of the \d+ faces that look as its own do: widen it, .* end_check: false"):
         import_mesh(source(file, root=Where(("gauges",)), **rules))
+
+
+def test_no_file_of_gmsh_runs_a_command(tmp_path):
+    """Neither a script with a mesh's name, nor options next to a mesh."""
+    command = f'SystemCall "touch {tmp_path}/done";'
+    plate_of_gmsh(tmp_path / "plate.msh", 15)
+    (tmp_path / "plate.msh.opt").write_text(command)
+    assert list(read_msh(tmp_path / "plate.msh").blocks) == ["tetra10"]
+    (tmp_path / "script.msh").write_text(f"// 4.0\n{command}\n")
+    with refused(r"found no \$MeshFormat at its beginning; allowed: a mesh that gmsh has written"):
+        read_msh(tmp_path / "script.msh")
+    assert not (tmp_path / "done").exists()
+
+
+def test_a_volume_of_two_groups_is_there_once_and_one_of_none_is_not_lost(tmp_path):
+    with quiet_gmsh():
+        plates = [(3, gmsh.model.occ.addBox(start, 0, 0, 10, 4, 60)) for start in (0, 10)]
+        gmsh.model.occ.fragment(plates[:1], plates[1:])
+        gmsh.model.occ.synchronize()
+        for name in ("blade", "titanium"):
+            gmsh.model.addPhysicalGroup(3, [1], name=name)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 15)
+        gmsh.model.mesh.generate(3)
+        count = len(gmsh.model.mesh.getElementsByType(11, 1)[0])
+        for version, everything in ((2.2, 0), (4.0, 1)):
+            gmsh.option.setNumber("Mesh.MshFileVersion", version)
+            gmsh.option.setNumber("Mesh.SaveAll", everything)
+            gmsh.write(str(tmp_path / f"{version}.msh"))
+    mesh = read_msh(tmp_path / "2.2.msh")
+    assert len(mesh.blocks["tetra10"]) == count
+    np.testing.assert_array_equal(mesh.sets["blade"], mesh.sets["titanium"])
+    with refused("some elements are in no physical group"):
+        quietly(read_msh, tmp_path / "4.0.msh")
 
 
 SYSTEMS = """GRDSET,,3
@@ -483,7 +521,7 @@ def test_an_included_file_is_one_of_the_mesh(tmp_path):
 
 def test_nodes_and_elements_of_a_deck_may_lie_in_files_of_their_own(tmp_path):
     """Numbers with the exponent of Fortran, too."""
-    whole = read_abaqus(deck(tmp_path))
+    whole = read_abaqus(deck(tmp_path, lambda text: text + "*AMPLITUDE, NAME=LOAD, INPUT=not_there.dat\n"))
     head, nodes, elements, rest = re.split(
         r"(?m)^(?=\*NODE|\*ELEMENT|\*ELSET|\*NSET|\*SURFACE|\*MATERIAL)", deck(tmp_path).read_text(), maxsplit=3
     )

@@ -161,8 +161,9 @@ def _work(channel: Connection, job: _Job | None, alone: bool) -> NoReturn:
         end_with_parent()
         while job is not None and (status := _run(*job)) == 0 and not alone:
             channel.send(status)
-            job = channel.recv()
-    os._exit(status)
+            # until the next job has been done it has failed
+            status, job = 1, channel.recv()
+    os._exit(0 if job is None else status)
 
 
 def _run(script: str, temporary_folder: str | None, arguments: bytes) -> int:

@@ -23,7 +23,7 @@ _OTHER_SOLIDS |= {236, 237, 239, 240, 278, 279}
 _LEFT_OUT = "170"
 """A type, of contact, that meshlane leaves out."""
 
-_TYPE = re.compile(r"(?im)^(\s*ET\s*,[^,\n]+,\s*)(\d+)")
+_TYPE = re.compile(r"(?im)^(\s*ET\s*,[^,\n]+,\s*)(?:[A-Z]+)?(\d+)")
 _TYPE_BLOCK = re.compile(r"(?im)^ETBLOCK\b.*\n.*\n((?:\s*\d+.*\n)*)")
 _TYPE_ROW = re.compile(r"(?m)^(\s*\d+\s+)(\d+)")
 
@@ -45,10 +45,13 @@ def read_ansys(file: Path) -> RawMesh:
         number = int(row[2])
         if number in _OTHER_SOLIDS:
             raise ImportRefused(f"found elements of type SOLID{number}; allowed: SOLID185, SOLID186, SOLID187 and SOLID285")
-        if number in _SOLIDS | _SHELLS_AND_LINES:
-            return row[0]
-        left_out.add(number)
-        return row[1] + _LEFT_OUT.rjust(len(row[2]))
+        text = row[2]
+        if number not in _SOLIDS | _SHELLS_AND_LINES:
+            left_out.add(number)
+            text = _LEFT_OUT
+        # in columns the number ends where it did
+        surplus = len(text) - len(row[2])
+        return (row[1][:-surplus] if surplus > 0 and row[1].isascii() and row[1].endswith(surplus * " ") else row[1]) + text
 
     # titles and names may be in Latin-1
     text = _TYPE.sub(known, file.read_text(encoding="utf-8", errors="replace"))

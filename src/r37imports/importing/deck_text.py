@@ -37,6 +37,9 @@ def keyword_and_options(line: str) -> tuple[str, dict[str, str]]:
     return keyword.upper(), {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
 
 
+_WITH_DATA = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "BOUNDARY")
+"""Keywords that are read, whose data may lie in a file of their own."""
+
 _DEEPEST = 50
 """Files of which each includes the next."""
 
@@ -63,7 +66,8 @@ def deck_lines(deck: Path, files: dict[Path, None] | None = None, above: tuple[P
             if unfinished:
                 continue
             keyword, options = keyword_and_options(line)
-            called, is_include = options.get("INPUT"), keyword == "INCLUDE"
+            is_include = keyword == "INCLUDE"
+            called = options.get("INPUT") if is_include or keyword in _WITH_DATA else None
             if not is_include:
                 yield line
                 if not called:

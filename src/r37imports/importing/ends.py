@@ -11,6 +11,7 @@ from .raw_mesh import RawMesh
 from .source import Where
 
 _CREASE = np.radians(40.0)
+_BEND = np.radians(15.0)  # within a face that a set names; beyond is a chamfer
 _RADIAL = 0.5  # of a unit normal: faces that look along the radius, out or in
 _STRAIGHT = 2e-3  # of the blade's height: how far the nodes of an end may be from a cone
 _LARGE = 0.1  # of the largest patch's area: smaller ones are no end
@@ -159,8 +160,9 @@ def check_end(what: str, where: Where, caught: Caught, end: End | None, points: 
         patch, *_ = _radial_patches(what, points, surface)
         if where.sets:
             # flanks, of which a disc holds the root, are planes
-            planes = smooth_patches(surface, area_vectors(surface, points), _PLANAR)
-            patch, looks = np.where(patch >= 0, patch, patch.max() + 1 + planes), "as its own do"
+            vectors = area_vectors(surface, points)
+            faces, planes = smooth_patches(surface, vectors, _BEND), smooth_patches(surface, vectors, _PLANAR)
+            patch, looks = np.where(patch >= 0, faces, faces.max() + 1 + planes), "as its own do"
         expected, beside = np.isin(patch, patch[caught.mask & (patch >= 0)]), 0
     whole, within = expected.sum(), (caught.mask & expected).sum()
     if within == whole and not beside:

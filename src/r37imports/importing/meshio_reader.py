@@ -9,6 +9,7 @@ import re
 import shutil
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -38,24 +39,34 @@ def read_with_meshio(file: Path) -> RawMesh:
 
 
 def read_msh(file: Path) -> RawMesh:
-    """The mesh of a file of gmsh, of version 2.2, 4.0 or 4.1. meshio knows one group of an entity; gmsh knows all of them."""
+    """The mesh of a file of gmsh, of version 2.2, 4.0 or 4.1. meshio knows one group of an entity; gmsh knows all of them.
+
+    Raises ImportRefused for another kind of file: gmsh would run it as a script. It opens a copy, next to which no file has
+    options.
+    """
     content = file.read_bytes()
-    version = [*content[:40].split(), b"", b""][1]
+    head = re.match(rb"(?:\$Comments.*?\$EndComments\s+)?\$MeshFormat\s+(\d\S*)", content, re.DOTALL)
+    if head is None:
+        raise ImportRefused("found no $MeshFormat at its beginning; allowed: a mesh that gmsh has written")
+    version = head[1]
     is_old = version.startswith(b"2")
     # of equal names gmsh and meshio keep one
     section = content.partition(b"$PhysicalNames")[2].partition(b"$EndPhysicalNames")[0]
     named = re.findall(rb'(?m)^\s*(\d)\s+(\d+)\s+"(.*)"', section)
     names = {(int(dimension), int(group)): name.decode(errors="replace") for dimension, group, name in named}
     with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / "mesh.msh"
+        copy.write_bytes(content)
         if version in (b"4", b"4.0"):
             # version 4.0, which meshio does not read
             with quiet_gmsh():
-                gmsh.open(str(file))
-                gmsh.write(str(file := Path(folder) / "again.msh"))
-        mesh = meshio.read(file)
+                gmsh.option.setNumber("Mesh.SaveAll", 1)
+                gmsh.open(str(copy))
+                gmsh.write(str(copy))
+        mesh = meshio.read(copy)
         # before version 4 each element has its group, and one of several groups is there several times
         field = "gmsh:physical" if is_old else "gmsh:geometrical"
-        groups = list(_groups_of_gmsh(file))
+        groups = list(_groups_of_gmsh(copy))
     numbers = mesh.cell_data.get(field, [np.zeros(len(block.data), dtype=int) for block in mesh.cells])
     sets = []
     for dimension, group, entities in groups:
@@ -68,7 +79,14 @@ def read_msh(file: Path) -> RawMesh:
     mesh.cell_data.pop("gmsh:physical", None)
     # meshio has numbers of surfaces for cells
     mesh.cell_sets.clear()
-    return raw_mesh(mesh, sets)
+    raw = raw_mesh(mesh, sets)
+    return replace(raw, blocks={name: _once(block) for name, block in raw.blocks.items()}) if is_old else raw
+
+
+def _once(block: np.ndarray) -> np.ndarray:
+    """The elements of a block, each once, in their order."""
+    _, first = np.unique(block, axis=0, return_index=True)
+    return block[np.sort(first)]
 
 
 def _groups_of_gmsh(file: Path) -> Iterator[tuple[int, int, np.ndarray]]:
@@ -87,7 +105,7 @@ def read_med(file: Path) -> RawMesh:
     with tempfile.TemporaryDirectory() as folder:
         plain = Path(shutil.copy(file, folder))
         with h5py.File(plain, "r+") as content:
-            families = content["FAS"][next(iter(content["ENS_MAA"]))]
+            families = content.require_group(f"FAS/{next(iter(content['ENS_MAA']))}")
             tags = {place: _names_of(families.pop(place)) for place in ("NOEUD", "ELEME") if place in families}
         mesh = meshio.read(plain)
     mesh.point_tags, mesh.cell_tags = tags.get("NOEUD", {}), tags.get("ELEME", {})
@@ -98,7 +116,8 @@ def _names_of(families: Mapping[str, Any]) -> dict[int, list[str]]:
     """Number of each family -> names of its groups, each of at most 80 bytes in UTF-8 or Latin-1."""
     names = {}
     for family in families.values():
-        fields = [np.asarray(name, dtype=np.int8).tobytes().rstrip(b"\0 ") for name in family["GRO"]["NOM"]]
+        rows = family["GRO"]["NOM"] if "GRO" in family else ()
+        fields = [np.asarray(name, dtype=np.int8).tobytes().rstrip(b"\0 ") for name in rows]
         names[int(family.attrs["NUM"])] = [_text(field) for field in fields]
     return names
 

@@ -1,5 +1,6 @@
 """Files of TurboGrid and BladeGen next to a blade's profile: meridians, and the .inf with unit, axis and names of files."""
 
+import re
 from collections.abc import Mapping
 from pathlib import Path, PureWindowsPath
 
@@ -53,7 +54,7 @@ def meridian_next_to(profile: Path, key: str) -> str | None:
     if profile.suffix.lower() not in PROFILE_ENDINGS:
         return None
     files = [file for file in sorted(profile.parent.iterdir()) if file.suffix.lower() in PROFILE_ENDINGS and file != profile]
-    ends = {end: [file.name for file in files if any(word in file.stem.lower() for word in _WORDS[end])] for end in _WORDS}
+    ends = {end: [file.name for file in files if _is_named(file.stem, _WORDS[end])] for end in _WORDS}
     names, (other_end,) = ends.pop(key), ends.values()
     if same := [name for word in _WORDS[key] if (name := profile.name.replace("profile", word)) in names]:
         return same[0]
@@ -64,3 +65,8 @@ def meridian_next_to(profile: Path, key: str) -> str | None:
         known = f"found {', '.join(other_end)} next to the sections, and {', '.join(others)}"
         raise ImportRefused(f"{known}; give {key}: one of them, or sections", key)
     return names[0] if names else None
+
+
+def _is_named(stem: str, words: tuple[str, ...]) -> bool:
+    """True where a file's name has one of the words: from a letter that follows none, or in capitals, on."""
+    return any(re.search(rf"(?<![A-Za-z])(?i:{word})|{word.capitalize()}", stem) for word in words)

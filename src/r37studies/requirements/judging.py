@@ -343,8 +343,9 @@ def _members(columns_of: Callable[[Evidence], Columns], limit: float, evidence: 
     runs = (evidence.members.sel(member=name) for name in evidence.members["member"].values)
     ran = (member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN)) for member in runs)
     values = np.array([_number(columns_of(evidence.replaced(member))) for member in ran if member.sizes["speed"]])
-    known = values[~np.isnan(values)]
-    return {"members": float(known.size), "share_of_members": float(np.mean(known <= limit))} if known.size else {}
+    # a member that is not known keeps nothing
+    is_known = not np.isnan(values).all()
+    return {"members": float(values.size), "share_of_members": float(np.mean(values <= limit))} if is_known else {}
 
 
 def members_that_meet(row: Mapping[str, Any] | pd.Series) -> str:
