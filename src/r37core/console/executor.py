@@ -103,7 +103,7 @@ class Executor(RealExecutor):
             self.report_job_error(info)
 
     def shutdown(self) -> None:
-        """End the server; when this returns no process of its is left."""
+        """End the server; when this returns none of its processes is left."""
         if self._started:
             self._started.end()
         self._plain.shutdown()

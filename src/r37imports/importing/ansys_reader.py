@@ -25,7 +25,7 @@ _LEFT_OUT = "170"
 
 _TYPE = re.compile(r"(?im)^(\s*ET\s*,[^,\n]+,\s*)(?:[A-Z]+)?(\d+)")
 _TYPE_BLOCK = re.compile(r"(?im)^ETBLOCK\b.*\n.*\n((?:\s*\d+.*\n)*)")
-_TYPE_ROW = re.compile(r"(?m)^(\s*\d+\s+)(\d+)")
+_TYPE_ROW = re.compile(r"(?m)^([ \t]*\d+)([ \t]+\d+)")
 
 
 def read_ansys(file: Path) -> RawMesh:
@@ -41,21 +41,19 @@ def read_ansys(file: Path) -> RawMesh:
         ) from None
     left_out: set[int] = set()
 
-    def known(row: re.Match[str]) -> str:
-        number = int(row[2])
+    def known(text: str) -> str:
+        number = int(text)
         if number in _OTHER_SOLIDS:
             raise ImportRefused(f"found elements of type SOLID{number}; allowed: SOLID185, SOLID186, SOLID187 and SOLID285")
-        text = row[2]
-        if number not in _SOLIDS | _SHELLS_AND_LINES:
-            left_out.add(number)
-            text = _LEFT_OUT
-        # in columns the number ends where it did
-        surplus = len(text) - len(row[2])
-        return (row[1][:-surplus] if surplus > 0 and row[1].isascii() and row[1].endswith(surplus * " ") else row[1]) + text
+        if number in _SOLIDS | _SHELLS_AND_LINES:
+            return text
+        left_out.add(number)
+        # in columns it ends where the number did
+        return _LEFT_OUT.rjust(len(text))
 
     # titles and names may be in Latin-1
-    text = _TYPE.sub(known, file.read_text(encoding="utf-8", errors="replace"))
-    text = _TYPE_BLOCK.sub(lambda block: _TYPE_ROW.sub(known, block[0]), text)
+    text = _TYPE.sub(lambda row: row[1] + known(row[2]), file.read_text(encoding="utf-8", errors="replace"))
+    text = _TYPE_BLOCK.sub(lambda block: _TYPE_ROW.sub(lambda row: row[1] + known(row[2]), block[0]), text)
     mesh = raw_mesh(meshlane.read(io.StringIO(text), "ansysInp"))
     if left_out:
         warn_of(f"elements of the types {', '.join(map(str, sorted(left_out)))} of Ansys are no solids, and are left out")

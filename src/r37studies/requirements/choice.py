@@ -25,7 +25,7 @@ MOST_NEAR, OTHERS = 24, 11
 """Speeds, those nearest to the limit, that are run in so many other ways: other friction, step, mesh, damping and rise."""
 
 BRIEF = 4
-"""Revolutions of a rise of the lobes that pushes a blade further than both faster and slower ones, on some."""
+"""Revolutions over which lobes rise in a further try: some blades have more stress then than with faster and slower rise."""
 
 LONGEST = 1000
 """Most revolutions of a run that ends as it has settled."""

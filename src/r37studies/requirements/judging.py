@@ -320,7 +320,7 @@ def _measured_error(only: Requirements, evidence: Evidence) -> float:
 
         error = max_i(own_i + multiple |changed_i - own_i|) / max_i(own_i) - 1
 
-    so that two equal maxima at different speeds do not hide it. The larger of both counts, as chance can make either small.
+    so that equal maxima at different speeds do not hide it. At least the level's error counts: chance may make this one small.
     """
     errors = []
     for look, multiple in _OF_ERROR.items():

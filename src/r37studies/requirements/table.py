@@ -159,7 +159,8 @@ def certainty(row: pd.Series) -> str:
         texts.append(f"{row['value_lowest']:.3g} to {bound}{row['value_highest']:.3g}{_unit(row)} in all that was tried")
     if row["scatter"] > 0.0:
         texts.append(f"scatter {row['scatter']:.2g}{_unit(row)}")
-    if pd.notna(row["share_of_members"]):
+    # the note has it where it is why nobody can tell
+    if pd.notna(row["share_of_members"]) and members_that_meet(row) not in str(row["note"]):
         texts.append(members_that_meet(row))
     return f" ({', '.join(texts)})" if texts else ""
 
