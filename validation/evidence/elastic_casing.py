@@ -9,9 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.config.declaring import si_form
-from r37core.contact.elastic_casing import ElasticCasing, nodal_diameters_for, slowest_wave
-from r37core.contact.ring import Ring
+from r37core.contact.elastic_casing import ENOUGH, ElasticCasing, nodal_diameters_for, slowest_wave
 from r37core.results.danger import ratio_to_yield
 from r37core.results.regions import read_judged
 from r37core.time_integration.status import RunStatus
@@ -23,13 +21,11 @@ SHIPPED, FASTEST = "elastic_abradable", 2000.0
 THICKNESSES, FLANGES = (2e-3, 1e-3), {"stiff": 1e9, "soft": 1e7}
 """Of rings (m), and the stiffness of their flanges, radial and tangential, per length of circumference (N/m2)."""
 
-FLEXIBILITY, MOST = 0.95, 100
-"""Share of the static flexibility that the modes have to have, and the most nodal diameters that are looked at."""
-
 
 def rings(input: Any, output: Any, params: Any) -> None:
     """Table of the waves of the rings that the rotor overtakes, and of the nodal diameters that a ring needs."""
-    shipped = si_form(Ring, settings_of(Path.cwd(), scenes="all").scene_designs.entries[SHIPPED].casing.ring)
+    shipped = settings_of(Path.cwd(), scenes="all").scene_designs.entries[SHIPPED].casing.elastic_casing().ring
+    assert shipped is not None
     rows = []
     for name, stiffness in FLANGES.items():
         for thickness in THICKNESSES:
@@ -39,10 +35,10 @@ def rings(input: Any, output: Any, params: Any) -> None:
             number, critical = slowest_wave(ring)
             overtaken = [mode.nodal_diameter for mode in elastic.overtaken(FASTEST)]
             cells = [f"{critical:.0f}", str(number), f"{overtaken[0]} to {overtaken[-1]}"]
-            needed = str(nodal_diameters_for(ring, FLEXIBILITY, MOST))
-            rows.append([f"{1e3 * thickness:g} mm, {name}", f"{second / 2.0 / np.pi:.0f}", *cells, needed])
+            needed = [str(nodal_diameters_for(ring, speed)) for speed in (0.0, FASTEST)]
+            rows.append([f"{1e3 * thickness:g} mm, {name}", f"{second / 2.0 / np.pi:.0f}", *cells, *needed])
     heads = ["n = 2 (Hz)", "lowest critical speed (rad/s)", "its n", f"n overtaken at {FASTEST:g} rad/s"]
-    write_table(["ring, flanges", *heads, f"n for {FLEXIBILITY:.0%} of the flexibility"], rows, output.table)
+    write_table(["ring, flanges", *heads, f"n for {ENOUGH:.0%} of the flexibility", "n that are needed"], rows, output.table)
 
 
 def effect(input: Any, output: Any, params: Any) -> None:

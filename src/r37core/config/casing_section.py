@@ -7,10 +7,10 @@ from typing import Annotated, Any
 from pydantic import Field, model_validator
 
 from r37core.contact.casing import Casing
-from r37core.contact.elastic_casing import ElasticCasing
-from r37core.contact.ring import Ring, RingMode
+from r37core.contact.elastic_casing import FASTEST_TIP, ElasticCasing, nodal_diameters_for
+from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring, RingMode
 
-from .declaring import declared_by, si, si_fields
+from .declaring import declared_by, si, si_fields, si_form
 from .section import LeftOut, Section, Without, check_table, left_out, option, refused
 
 _HEIGHTS = ("amplitude_clearances", "amplitude_m")
@@ -60,9 +60,16 @@ class ClearanceSection(Section):
     casing_growth: GrowthSection | LeftOut = None
 
 
-@declared_by(Ring)
+@declared_by(Ring, highest_nodal_diameter=None)
 class RingSection(Section):
     """A flexible casing: a thin ring of one material on an elastic foundation, its flanges."""
+
+    def parts(self) -> dict[str, Any]:
+        """The highest nodal diameter that the ring needs, where none is given."""
+        if self.highest_nodal_diameter is not None:
+            return {}
+        ring = si_form(Ring, self)
+        return {"highest_nodal_diameter": min(nodal_diameters_for(ring, FASTEST_TIP / ring.radius), MOST_NODAL_DIAMETERS)}
 
     def _check(self) -> None:
         if self.thickness_m > 0.2 * self.radius_m:

@@ -20,6 +20,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_blades import NO_ROTOR
 
 from .document import ConfigRefusals
+from .elastic_casings import elastic_casings_have_their_waves
 from .settings import RunLength, Settings, blades_of_matrices, fastest_of, length_of_run, slowest_speeds
 from .speed_section import key_of_speeds
 
@@ -209,5 +210,6 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     tips_have_room_for_patches,
     rotors_can_be_run,
     clearances_reach_all_speeds,
+    elastic_casings_have_their_waves,
 )
 """Checks in the order in which their refusals are reported."""

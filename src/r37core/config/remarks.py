@@ -1,11 +1,10 @@
 """Remarks of the pipeline before a run starts, and at its end."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
-from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
-from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 from r37core.rom.reduction_choice import LINEAR, POINTS, QUADRATIC
 
+from .elastic_casings import elastic_casings, remarks_on_overtaken_waves
 from .settings import Settings, contact_of_blades, direct_on_points, fastest_of
 from .spread import Spreads
 
@@ -21,7 +20,6 @@ def remarks_of_pipeline(settings: Settings) -> Iterator[str]:
         yield f"fidelity auto: level {settings.fidelity_name}, measured error {error:g}%"
     yield from remarks_on_input(settings)
     yield from remarks_on_unlike_contact(settings)
-    yield from remarks_on_left_out_modes(elastic_casings(settings))
 
 
 def remarks_on_input(settings: Settings, changed: Collection[str] = ()) -> Iterator[str]:
@@ -165,47 +163,3 @@ def remarks_on_unlike_contact(settings: Settings) -> Iterator[str]:
         f"contact differs ({different}): blades are ranked among those of the same contact; "
         f"structure: {{ {kinematics}boundary: {{ contact: patches }} }} gives all blades one order"
     )
-
-
-ENOUGH = 0.95
-"""Share of the give under a force from which on nothing is said, and for which nodal diameters are named."""
-
-_KEY = "casing.ring.highest_nodal_diameter"
-
-
-def elastic_casings(settings: Settings) -> dict[str, ElasticCasing]:
-    """Elastic casing of each scene to run that has one."""
-    entries = {name: settings.scene_designs.entries[name].casing for name in settings.scene_names}
-    return {name: casing.elastic_casing() for name, casing in entries.items() if casing.elastic}
-
-
-def remarks_on_overtaken_waves(scene: str, casing: ElasticCasing, fastest: float) -> Iterator[str]:
-    """Remark on a scene with speeds up to `fastest` (rad/s); none below the casing's lowest critical speed."""
-    if fastest <= casing.critical_speed:
-        return
-    remark = (
-        f"scene {scene}: speeds up to {fastest:g} rad/s; above {casing.critical_speed:.4g} the rotor overtakes waves of the "
-        "casing, which may then grow without bound"
-    )
-    unseen = [mode.nodal_diameter for mode in casing.overtaken(fastest) if mode not in casing.modes]
-    if casing.ring is not None and unseen:
-        those = f"those of {unseen[0]} to {unseen[-1]} nodal diameters: {_KEY} is {casing.ring.highest_nodal_diameter}"
-        remark += f"; the simulation does not show {those}"
-    yield remark
-
-
-def remarks_on_left_out_modes(casings: Mapping[str, ElasticCasing]) -> Iterator[str]:
-    """Remarks on rings that give way less under a force than with all modes; a ring that scenes share has one."""
-    scenes: dict[Ring, list[str]] = {}
-    for name, casing in casings.items():
-        if casing.ring is not None:
-            scenes.setdefault(casing.ring, []).append(name)
-    for ring, names in scenes.items():
-        part, whole = flexibility_of(ring.modes()), flexibility(ring)
-        if part / whole < ENOUGH:
-            needed = nodal_diameters_for(ring, ENOUGH, MOST_NODAL_DIAMETERS) or f"not even {MOST_NODAL_DIAMETERS}"
-            yield (
-                f"scene {', '.join(names)}: the modes up to {_KEY} {ring.highest_nodal_diameter} give way {1e6 * part:.3g} "
-                f"um/N at a force that rests, {part / whole:.0%} of what the whole ring does, {1e6 * whole:.3g}; {needed} have "
-                f"{ENOUGH:.0%}"
-            )

@@ -102,9 +102,19 @@ def flexibility(ring: Ring) -> float:
     return breathing + float(total) / (np.pi * ring.radius)
 
 
-def nodal_diameters_for(ring: Ring, share: float, most: int) -> int | None:
-    """The fewest nodal diameters, at most `most`, whose modes have this share of the flexibility; None where none have."""
-    modes = replace(ring, highest_nodal_diameter=most).modes()
+ENOUGH = 0.95
+"""Share of the static flexibility that the modes of a simulation hold."""
+
+FASTEST_TIP = 550.0
+"""Speed (m/s) of the fastest tips of compressors: a ring has the waves that they overtake, whichever speeds are run."""
+
+
+def nodal_diameters_for(ring: Ring, speed: float, share: float = ENOUGH) -> int:
+    """The fewest nodal diameters whose modes have this share of the flexibility, and all waves that the rotor overtakes.
+
+    The rotor of at most `speed` (rad/s). MOST_LISTED at most.
+    """
+    modes = replace(ring, highest_nodal_diameter=MOST_LISTED).modes()
     given_way = np.cumsum([flexibility_of([mode]) for mode in modes])
-    enough = np.flatnonzero(given_way >= share * flexibility(ring))
-    return modes[int(enough[0])].nodal_diameter if len(enough) else None
+    enough = modes[min(int(np.sum(given_way < share * flexibility(ring))), len(modes) - 1)]
+    return max(mode.nodal_diameter for mode in (enough, *ElasticCasing((), ring).overtaken(speed)))

@@ -57,9 +57,11 @@ class Ring:
     highest_nodal_diameter: Annotated[
         int,
         Key(
-            "Highest nodal diameter of a mode; `r37 check` reports the effect of those left out", ge=2, le=MOST_NODAL_DIAMETERS
+            "Highest nodal diameter of a mode; left out: found from the ring; too low a number is refused",
+            ge=2,
+            le=MOST_NODAL_DIAMETERS,
         ),
-    ] = 20
+    ] = MOST_NODAL_DIAMETERS
 
     @property
     def mass(self) -> float:

@@ -3,7 +3,7 @@
 from typing import Any
 
 from r37core.base.plain import to_plain
-from r37core.config.remarks import elastic_casings
+from r37core.config.elastic_casings import elastic_casings
 from r37core.plans.extension import Figure
 from r37core.plans.paths import CAMPBELL, MESH, RESPONSE, of, run_keys
 from r37core.plans.sweep_plan import Sweep

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from r37core.config.remarks import elastic_casings
+from r37core.config.elastic_casings import elastic_casings
 from r37core.figures.declared import FIGURES as PIPELINE
 from r37core.plans.code import CodeHashes
 from r37core.plans.extension import AddedColumns, Figure, Panel

@@ -79,8 +79,9 @@ def numbers_of_run(
     stress = None if stress is None else operators_at(stress, problem.speed)
     edge_is_known = len(model.edge.theta) > len(model.theta)
     totals = np.array([state.totals for state in run.states])
-    per_revolution, revolutions = choice.samples_per_revolution, run.ending.revolutions
-    first = max(revolutions - choice.revolutions_in_statistic, 0)
+    # a run that diverges early ends before the statistic is full, which keeps its shape
+    per_revolution, revolutions = choice.samples_per_revolution, max(run.ending.revolutions, choice.revolutions_in_statistic)
+    first = revolutions - choice.revolutions_in_statistic
     count, shape = revolutions * per_revolution, (-1, len(TIP_POINTS), len(DIRECTIONS))
     samples = [kept_numbers.whole(part.samples.reshape(shape), count, part.diverged) for part in run.records]
     statistic = [part[first * per_revolution :] for part in samples]

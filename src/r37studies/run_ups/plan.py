@@ -10,7 +10,7 @@ from r37core.base.yaml_file import KeyPath
 from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.cross_checks import engine_order_is_known, names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
-from r37core.config.remarks import elastic_casings, remarks_on_overtaken_waves
+from r37core.config.elastic_casings import elastic_casings, remarks_on_overtaken_waves, waves_are_simulated
 from r37core.config.settings import fastest_of, length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
@@ -148,6 +148,7 @@ def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
         revolutions = choice.before + run_up.revolutions + choice.after
         run = length_of_run(settings, scene, min(choice.start, choice.stop), revolutions)
         slow_run_can_be_done(run, settings, path)
+        waves_are_simulated(settings, scene, max(choice.start, choice.stop))
 
 
 EXTENSION = Extension(
