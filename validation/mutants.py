@@ -58,7 +58,7 @@ TESTS = {
     "surrogate/gaussian_processes.py": "test_search_proposals.py",
     "surrogate/designs.py": "test_search_proposals.py",
     "surrogate/proposal.py": "test_search_proposals.py",
-    "run_ups/revolutions.py": "test_run_ups.py",
+    "run_up_revolutions.py": "test_run_ups.py",
     "stress/": "test_results.py",
 }
 """Module, or folder with the rest of its modules, -> the test files that are to notice."""

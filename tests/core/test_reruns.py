@@ -152,7 +152,7 @@ def test_shapes_run_no_simulation(project):
     assert planned_outputs(project) == {}
     file = project / "config/config.yaml"
     finished = file.read_text()
-    overlay(project, "config.yaml", "operating: { idle_rad_s: 800, redline_rad_s: 1500 }")
+    overlay(project, "config.yaml", "operating: { idle_rad_s: 750, redline_rad_s: 1550 }")
     # it is marked in figures over speed alone
     assert "response_figure" in (again := set(planned_outputs(project))) and again.isdisjoint(SHAPES)
     file.write_text(finished)

@@ -2,7 +2,7 @@
 
 from reference_engine import ReferenceSimulation
 
-from r37studies.run_ups.integration import RunUpIntegration
+from r37studies.run_up_integration import RunUpIntegration
 
 
 class ReferenceRunUp(RunUpIntegration):

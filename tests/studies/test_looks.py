@@ -59,6 +59,7 @@ RESULTS = ("wear", "spectrum")
 def lined(contact, monkeypatch, tmp_path):
     """A lined blade whose runs end after 20 revolutions at the latest."""
     monkeypatch.setattr(further_runs, "LONGEST", 20)
+    monkeypatch.setattr(further_runs, "FOLLOWED", 48)
     monkeypatch.setattr(further_runs, "PUBLISHED_REVOLUTIONS", CHOICE.revolutions)
     material = {"yield_stress": 1e9, "strengths": UNKNOWN}
     blade = JudgedBlade(contact, LINED, CHOICE, RESULTS, KEPT, parts=Parts(tmp_path / "runs", "lined"), **material)
@@ -103,7 +104,6 @@ def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_b
     again = looks_in(joined_looks(found))
     for name, runs in found.items():
         xr.testing.assert_allclose(again[name][["used_thickness", "status"]], runs[["used_thickness", "status"]])
-    long = replace(CHOICE, revolutions=20, until_settled=True)
     # lobes rise as in the runs of the sweep
     rising = replace(LINED, casing=replace(LINED.casing, rise_revolutions=LINED.casing.rise_fraction * CHOICE.revolutions))
     friction, damped, casing = rising.friction, (replace(rising, damping_ratio=ratio) for ratio in (0.0, 0.5)), rising.casing
@@ -115,15 +115,21 @@ def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_b
     for look, revolutions in rises.items():
         scenes[look] = replace(rising, casing=replace(casing, rise_revolutions=revolutions))
     changes = {HALF_STEP: {"time_step": 0.5 * CHOICE.time_step}, SLOWEST_RISE: {"until_settled": False}}
+    lengths = set()
     used = {}
     for name, scene in scenes.items():
-        choice = replace(long, **changes.get(name, {}))
-        row = run_row(run_speed(contact, 1305.0, scene, choice, RESULTS, **KEPT), 1e9, UNKNOWN)
         run = found[name].sel(speed=1305.0)
+        choice = replace(CHOICE, revolutions=20, **({"until_settled": True} | changes.get(name, {})))
+        if run["followed"]:
+            # a motion that grows
+            choice = replace(choice, revolutions=48, until_settled=True)
+        lengths.add(choice.revolutions)
+        row = run_row(run_speed(contact, 1305.0, scene, choice, RESULTS, **KEPT), 1e9, UNKNOWN)
         used[name] = run["used_thickness"].item()
         assert used[name] == row["used_thickness"]
-        np.testing.assert_array_equal(run["amplitude"], row["amplitude"])
-    assert len(set(used.values())) == 11
+        # next to a followed run's
+        np.testing.assert_array_equal(run["amplitude"].dropna("engine_order"), row["amplitude"])
+    assert len(set(used.values())) == 11 and lengths == {20, 48}
 
 
 def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):

@@ -91,6 +91,10 @@ def growing_at(runs, *speeds):
     return runs.assign(motion_at_end=("speed", np.where(np.isin(SPEEDS, speeds), MotionAtEnd.GROWING, MotionAtEnd.QUIET)))
 
 
+def followed(runs):
+    return runs.assign(followed=("speed", everywhere(1.0)))
+
+
 def untouched(runs):
     return runs.assign(share_of_time_in_contact=0.0 * runs["status"])
 
@@ -128,6 +132,7 @@ TWO = response(above(1020.0, 1080.0) + above(1200.0, 1230.0))
 WORN = response(
     used_thickness=np.maximum(6e-4 - 1e-5 * np.abs(SPEEDS - 1200.0), at(1000.0, 9e-4, 2e-4)), worn_through_share=everywhere(0.0)
 )
+SLIGHT = response(used_thickness=everywhere(6e-5))
 TIRED = fatigued(at(1120.0, 0.7, at(1020.0, 3.0, 0.2)))
 SHARP, BROAD = fatigued(at(1150.0, 0.5, 0.2)), fatigued(0.5 - 1e-5 * (SPEEDS - 1150.0) ** 2)
 CLOSE = stressed(at(1150.0, 0.98, 0.5))
@@ -194,7 +199,10 @@ CASES = [
     # 0.9 mm at 1000 rad/s is outside
     case("used lining", LINING, WORN, **THICK),
     case("wear that grows", LINING, growing_at(WORN, 1200.0), **THICK),
-    case("wear that grows far below the limit", LINING, growing_at(response(used_thickness=everywhere(6e-5)), 1200.0), **THICK),
+    case("wear that grows far below the limit", LINING, growing_at(SLIGHT, 1200.0), **THICK),
+    # at half of the limit, and so much below it
+    case("wear that grew far below the limit as it was followed", LINING, followed(growing_at(SLIGHT, 1200.0)), **THICK),
+    case("wear that grew to half of the limit", Requirements(used_lining=0.12), followed(growing_at(SLIGHT, 1200.0)), **THICK),
     case(
         "worn through", Requirements(used_lining=1.0), WORN.assign(worn_through_share=("speed", at(1150.0, 0.1, 0.0))), **THICK
     ),
@@ -205,9 +213,9 @@ CASES = [
     case("share of the Goodman line", Requirements(goodman_share=0.5), TIRED),
     case("it diverged", Requirements(goodman_share=5.0), diverged_at(TIRED, 1150.0)),
     case("no strengths", GOODMAN, TIRED.assign(fatigue_strength=np.inf)),
-    # from 2 at 1045 to 0.2 at 1050 rad/s, which is 1.1 where the range begins; no run lies inside
+    # no run lies inside
     case(
-        "between runs a share is a straight line",
+        "a range between two runs has the larger of both",
         GOODMAN,
         fatigued(at(1045.0, 2.0, 0.2)),
         operating=OperatingRange(1047.5, 1049.0),

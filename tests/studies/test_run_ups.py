@@ -23,15 +23,16 @@ from r37core.time_integration.segments import segments_at
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.step_limit import UnstableStepError
-from r37studies.run_ups import choice as schedule_module
-from r37studies.run_ups import integration as integration_module
-from r37studies.run_ups import revolutions as revolutions_module
-from r37studies.run_ups.choice import Crossing, RunUp, RunUpChoice, RunUpError, schedule
+from r37studies import run_up_integration as integration_module
+from r37studies import run_up_revolutions as revolutions_module
+from r37studies import run_up_schedule as schedule_module
+from r37studies.run_up_integration import RunUpIntegration
+from r37studies.run_up_revolutions import record_run_up
+from r37studies.run_up_schedule import RunUp, schedule
+from r37studies.run_ups.choice import Crossing, RunUpChoice, RunUpError
 from r37studies.run_ups.dataset import VARIABLES as RUN_UP_ARRAYS
 from r37studies.run_ups.dataset import runs_of, write_run_ups
 from r37studies.run_ups.figures import draw_rates, draw_run_ups
-from r37studies.run_ups.integration import RunUpIntegration
-from r37studies.run_ups.revolutions import record_run_up
 from r37studies.run_ups.tables import rate_table, run_up_table
 
 LONG = IntegrationChoice(3.2e-6, 4, 62, integrator=EXACT_MODAL)

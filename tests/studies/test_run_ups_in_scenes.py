@@ -26,11 +26,11 @@ from r37core.time_integration.clearance import NoRoomError, clearances
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
-from r37studies.run_ups import revolutions
-from r37studies.run_ups.choice import RunUp
-from r37studies.run_ups.damage import largest_damage
-from r37studies.run_ups.integration import RunUpIntegration
-from r37studies.run_ups.revolutions import record_run_up
+from r37studies import run_up_revolutions as revolutions
+from r37studies.cycle_damage import largest_damage
+from r37studies.run_up_integration import RunUpIntegration
+from r37studies.run_up_revolutions import record_run_up
+from r37studies.run_up_schedule import RunUp
 
 LONG = IntegrationChoice(3.2e-6, 4, 62, integrator=EXACT_MODAL)
 BARE = replace(NARROW, lining=None)

@@ -23,9 +23,9 @@ from r37core.rom.reduction_choice import PATCHES
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.simulate import DIRECTIONS
 from r37core.time_integration.speed_run import run_speed
-from r37studies.run_ups.choice import RunUp
-from r37studies.run_ups.integration import RunUpIntegration
-from r37studies.run_ups.revolutions import record_run_up
+from r37studies.run_up_integration import RunUpIntegration
+from r37studies.run_up_revolutions import record_run_up
+from r37studies.run_up_schedule import RunUp
 
 from .paper_box import BOX, box_operator
 

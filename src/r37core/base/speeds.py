@@ -1,8 +1,9 @@
 """Speeds to simulate: numbers and ranges, joined, some sampled adaptively; and how a speed stands in file names."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import isclose
 from typing import Any
 
 from r37core.base.units import RAD_S
@@ -55,6 +56,15 @@ class SpeedPlan:
 
     certain: tuple[float, ...]
     refined: tuple[RefinedRange, ...] = ()
+
+    def including(self, speeds: Iterable[float]) -> "SpeedPlan":
+        """The plan with more certain speeds (rad/s): those between its lowest and highest that it does not have yet."""
+        plan = self
+        for speed in speeds:
+            certain = plan.certain
+            if certain[0] < speed < certain[-1] and not any(isclose(speed, known) for known in certain):
+                plan = replace(plan, certain=tuple(sorted([*certain, speed])))
+        return plan
 
     def speed_count(self, largest_share: float) -> int:
         """Number of speeds that are run when so large a share of each grid may be, as a rule at most."""

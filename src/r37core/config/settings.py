@@ -235,7 +235,8 @@ def _planned(settings: Settings, path: KeyPath, section: Config | SpeedRule) -> 
     if fastest > highest:
         allowed = f"up to {highest:g} rad/s, {FARTHEST:g} times structure.maximum_speed_rad_s; rpm stand under speeds_rpm"
         raise document.refusal(f"{fastest:g} rad/s", allowed, *path, key)
-    return plan
+    operating = operating_range(settings)
+    return plan.including(operating.ends) if operating else plan
 
 
 def _chosen(settings: Settings, key: str, designs: Designs[Any]) -> list[str]:

@@ -45,6 +45,11 @@ class OperatingRange:
         """Highest speed (rad/s) that is judged."""
         return self.redline * (1.0 + self.margin)
 
+    @property
+    def ends(self) -> tuple[float, ...]:
+        """Speeds (rad/s) that are run themselves: idle, redline, and the ends of the judged range."""
+        return (self.first, self.idle, self.redline, self.last)
+
     def is_covered(self, speeds: np.ndarray) -> bool:
         """True if runs at these ascending speeds (rad/s) reach over the whole judged range, but for rounding."""
         return bool(len(speeds) and speeds[0] <= self.first * (1.0 + _ROUNDING) and speeds[-1] >= self.last * (1.0 - _ROUNDING))

@@ -30,6 +30,9 @@ BRIEF = 4
 LONGEST = 1000
 """Most revolutions of a run that ends as it has settled."""
 
+FOLLOWED = 3200
+"""Most revolutions of a run whose motion still grows after LONGEST."""
+
 RESULTS = ("spectrum", "stress", "static_stress", "fatigue", "wear")
 """Results of a scene that further runs have: those that requirements and interactions need."""
 

@@ -33,6 +33,9 @@ JUDGED = (
 OF_ALL = ("lined", "yield_stress", "static_stress", "fatigue_strength")
 """Variables that are the same at all speeds."""
 
+SCALED = ("max_von_mises_median", "goodman_share", "used_thickness")
+"""Those that an error of mesh and step scales."""
+
 SHOWN = 0.9
 """Share of a peak that speeds beside it have at least where they show how high it is."""
 
@@ -134,22 +137,17 @@ class Evidence:
         return self.response["status"].values == RunStatus.DIVERGED
 
     def worst(self, values: np.ndarray) -> tuple[float, float]:
-        """Largest value in the operating range, and its speed (rad/s); between runs values are a straight line.
+        """Largest of the `values`, shape (speeds,), of runs in the operating range, and its speed (rad/s).
 
-        `values`, shape (speeds,), of all runs: where one is infinite, so is everything up to the next runs.
+        Where the range begins or ends between two runs, the nearest one outside counts, too.
         """
-        speeds = self.response["speed"].values
-        ends = (self.operating.first, self.operating.last)
-        places = np.unique([*ends, *speeds[(speeds > ends[0]) & (speeds < ends[1])]])
-        inside = np.interp(places, speeds, values)
-        place = int(inside.argmax())
-        return float(inside[place]), float(places[place])
+        place = np.where(_spanning(self), values, -np.inf).argmax()
+        return float(values[place]), float(self.response["speed"].values[place])
 
     def scaled(self, factor: float | xr.DataArray) -> Self:
         """The evidence with stress, share of the Goodman line and used lining times a `factor`, or one of each speed."""
         runs = self.response
-        scale = ("max_von_mises_median", "goodman_share", "used_thickness")
-        changed = {name: factor * runs[name] for name in scale if name in runs}
+        changed = {name: factor * runs[name] for name in SCALED if name in runs}
         if "max_von_mises_median" in changed:
             share, above = runs["share_of_revolutions_above_yield"], changed["max_von_mises_median"] > runs["yield_stress"]
             # the share itself is that of yield, so only which side of it most revolutions lie on is known

@@ -43,7 +43,7 @@ LOOKS = (REST, HALF_FRICTION, *LARGE_CHANGES, UP, DOWN, *REPEATED)
 """Further runs of a blade in a scene; see requirements.looks."""
 
 GROWS = 0.5
-"""Share of a limit from which a motion that still grows may come to it."""
+"""Share of a limit from which a motion that still grows may come to it; of wear that was not followed, from 0 on."""
 
 AT_LEAST = "the highest value is a lower bound"
 """Note on a highest value that finer speeds or longer runs may exceed."""
@@ -57,9 +57,6 @@ NOT_MEASURED = "the level's error was not measured: snakemake tradeoff measures 
 CLEARLY = 1.15
 """Factor by which stress and wear may be smaller where a requirement fails clearly."""
 
-LOWER_BOUND = "wear still grows at the end: a lower bound"
-"""Note on a lower bound: it meets no limit, however far it lies below."""
-
 VIBRATION_ALONE = "stress of vibration alone: add static_stress to the scene's results"
 """Note on a stress without that of rotation: it meets no limit."""
 
@@ -72,6 +69,9 @@ NO_CONTACT = "the tip touches nothing, which needs no further runs"
 Columns = dict[str, Any]
 """Columns of a requirement that are known."""
 
+
+MORE_SCATTER, LESS_SCATTER = "with twice its scatter added", "with twice its scatter subtracted"
+"""Names of a trial by chance: two standard deviations of the value."""
 
 COLUMNS = (
     "requirement",
@@ -217,7 +217,8 @@ def _judged_by_runs(
         # wherever its borders lie, a speed above yield is one
         lowest = max(lowest, 1e-9)
     if row["scatter"] > 0.0:
-        table.append(Trial("by chance", evidence, value=highest if row["verdict"] == MEETS else lowest))
+        name, end = (MORE_SCATTER, highest) if row["verdict"] == MEETS else (LESS_SCATTER, lowest)
+        table.append(Trial(name, evidence, value=end))
     finite = [value for trial in table for value in (trial.value, trial.raised) if np.isfinite(value)]
     operating = evidence.operating
     width = operating.last - operating.first
@@ -233,6 +234,8 @@ def _judged_by_runs(
     at_least = beyond if is_length else bool(may_be.max(initial=0.0) > (1.0 + error) * known.max(initial=0.0))
     # of what fails clearly nothing more was run
     at_least |= row["verdict"] == FAILS and REST not in evidence.looks and evidence.gap > STEP
+    if requirement == "used_lining":
+        at_least |= bool(np.any(evidence.response.get("motion_at_end", np.nan) == MotionAtEnd.GROWING))
     notes = [row["note"], AT_LEAST if at_least else ""]
     if row["verdict"] == FAILS:
         # another motion that keeps the limit takes nothing from one that does not
@@ -249,7 +252,7 @@ def _judged_by_runs(
         failing |= {f"{trial.name} and {more}": trial.raised for trial in also}
         suffix = "" if unit == "1" else f" {unit}"
         doubts = [
-            f"fails {name}" + (f" by {value - limit:.3g}{suffix}" if np.isfinite(value) else "")
+            "fails" + (f" by {value - limit:.3g}{suffix}" if np.isfinite(value) else "") + f" {name}"
             for name, value in failing.items()
         ]
         growing = filter(None, (_growing(only, trial) for trial in (Trial("", evidence), *trials)))
@@ -265,21 +268,28 @@ def _judged_by_runs(
     return row
 
 
+def growing(requirements: Requirements, evidence: Evidence) -> np.ndarray:
+    """Speeds (rad/s) in operation whose motion still grows as the run ends and may come to a limit, the nearest first."""
+    near, runs = nearness(requirements, evidence), evidence.response
+    # any wear is a lower bound unless it was followed; a speed above yield counts in full already
+    is_bound = requirements.used_lining is not None and np.nan_to_num(runs.get("followed", 0.0)) == 0.0
+    counts = is_bound | (near >= GROWS) & ((near < 1.0) | (requirements.above_yield is None))
+    grows = counts & evidence.operates & np.asarray(runs.get("motion_at_end", np.nan) == MotionAtEnd.GROWING)
+    order = np.argsort(-near, kind="stable")
+    return runs["speed"].values[order[grows[order]]]
+
+
 def _growing(only: Requirements, trial: Trial) -> str:
-    """Where the motion of a trial still grows as its run ends and may come to the one limit; empty where none does."""
-    near, runs = nearness(only, trial.evidence), trial.evidence.response
-    if "motion_at_end" not in runs:
-        return ""
-    # any wear is a lower bound then; a speed above yield counts in full already
-    counts = (near >= GROWS) & ((near < 1.0) | (only.above_yield is None)) | (only.used_lining is not None)
-    grows = counts & (runs["motion_at_end"].values == MotionAtEnd.GROWING) & trial.evidence.operates
+    """Where the motion of a trial still grows and may come to the one limit; empty where none does."""
     name = trial.name and f", {trial.name}"
-    return f"the motion still grows as the run ends, at {runs['speed'].values[grows][0]:.5g} rad/s{name}" if grows.any() else ""
+    return next(
+        (f"the motion still grows as the run ends, at {at:.5g} rad/s{name}" for at in growing(only, trial.evidence)), ""
+    )
 
 
 def _left_out(only: Requirements, evidence: Evidence, note: str) -> list[str]:
     """Reasons why runs cannot show that the one limit is met, by what they leave out; `note`: on the value."""
-    reasons = [bound for bound in (LOWER_BOUND, VIBRATION_ALONE) if bound in note]
+    reasons = [VIBRATION_ALONE] * (VIBRATION_ALONE in note)
     # further runs do not look closer either where all stays far below a limit
     far_below = evidence.fails_elsewhere and nearness(only, evidence).max(initial=0.0) < NEAR
     doubts = (
@@ -423,12 +433,7 @@ def _used_lining(evidence: Evidence) -> Columns:
     if np.isinf(value):
         worn = evidence.worst(through.astype(float))[0] > 0.0
         return _no_number(speed, "worn through to the casing") if worn else _diverged(evidence, speed)
-    note = ""
-    if "motion_at_end" in response:
-        nearest = int(np.abs(response["speed"].values - speed).argmin())
-        if response["motion_at_end"][nearest] == MotionAtEnd.GROWING:
-            note = LOWER_BOUND
-    return _worst_at(value, np.nan if value == 0.0 else speed, note)
+    return _worst_at(value, np.nan if value == 0.0 else speed)
 
 
 def _clearance(evidence: Evidence) -> Columns:

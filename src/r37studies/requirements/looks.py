@@ -5,7 +5,7 @@ rise faster and slower; carried up and down; with other friction; with half the 
 that the sweep's runs fail clearly only other damping and rise are tried, which may keep it.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
@@ -30,8 +30,8 @@ from r37core.time_integration.speed_file import read_speed
 from r37studies.blade_runs import BladeRuns
 
 from . import judging
-from .choice import BRIEF, CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements
-from .evidence import HALF_FRICTION, OF_ALL, Evidence, peak_reach, soonest_divergence
+from .choice import BRIEF, CARRIED_STEP, FOLLOWED, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements
+from .evidence import HALF_FRICTION, OF_ALL, SCALED, Evidence, peak_reach, soonest_divergence
 
 _MOST_PEAKS = 12
 """Peaks, the highest, about which speeds refine."""
@@ -48,18 +48,19 @@ class JudgedBlade(BladeRuns):
     """A blade in a scene; of the operators of the stress it has the one of the region that decides.
 
     `yield_stress` (Pa) and `strengths` of its material; `parts`: files of the runs. `coarser`: the blade on a coarser mesh,
-    where there is one.
+    where there is one. `follows`: whether runs last up to FOLLOWED revolutions, not LONGEST.
     """
 
     yield_stress: float
     strengths: Strengths
     parts: Parts
     coarser: Self | None = None
+    follows: bool = False
 
     @cached_property
     def long_choice(self) -> IntegrationChoice:
         """Time integration of a run that ends as it has settled, and keeps the stress of all its revolutions."""
-        longest = max(self.choice.revolutions, LONGEST)
+        longest = max(self.choice.revolutions, FOLLOWED if self.follows else LONGEST)
         kept = longest if self.choice.snapshots_per_revolution else 0
         return replace(self.choice, revolutions=longest, snapshot_revolutions=kept, until_settled=True)
 
@@ -68,9 +69,17 @@ class JudgedBlade(BladeRuns):
         """The scene with lobes that grow as in the sweep's runs, however long a run is."""
         return self.scene.rising_over(self.choice.length_of_rise_fraction)
 
-    def runs_from_rest(self, speeds: Iterable[float], scene: Scene | None = None, **changes: Any) -> xr.Dataset:
-        """Runs from rest at speeds (rad/s), in another scene if it is given, with changes of the long choice."""
-        of, choice = scene or self.rising_scene, replace(self.long_choice, **changes)
+    def runs_from_rest(
+        self, speeds: Iterable[float], scene: Scene | None = None, *, is_whole: bool = False, **changes: Any
+    ) -> xr.Dataset:
+        """Runs from rest at speeds (rad/s), in another scene if it is given, with changes of the long choice.
+
+        `is_whole`: whether a run that is not followed goes on after it has settled.
+        """
+        of, choice = (
+            scene or self.rising_scene,
+            replace(self.long_choice, until_settled=self.follows or not is_whole, **changes),
+        )
         runs = {speed: partial(self.numbers_at, of, choice, speed) for speed in speeds}
         return self._dataset({speed: self.parts.file(speed, (of, choice), run) for speed, run in runs.items()})
 
@@ -121,25 +130,54 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     first, last = evidence.operating.first, evidence.operating.last
     error = np.nan_to_num(evidence.error, nan=judging.CLEARLY - 1.0)
     inside = [float(speed) for speed in evidence.speeds if first < speed < last]
-    runs = blade.runs_from_rest(_closer([first, *inside, last], STEP))
+    from_rest = JudgedBlade.runs_from_rest
+    follow = partial(_followed, blade, requirements, evidence)
+    speeds = np.unique([*evidence.operating.ends, *inside]).tolist()
+    runs = follow(from_rest, _closer(speeds, STEP))
     while len(new := _speeds_about_peaks(runs["speed"].values, judging.nearness(requirements, evidence.replaced(runs)), error)):
-        runs = overlaid(runs, blade.runs_from_rest(new))
+        runs = overlaid(runs, follow(from_rest, new))
     yield judging.REST, runs
     rest = evidence.replaced(runs)
     yield from _large_changes(blade, requirements, rest)
     if judging.fails_clearly(requirements, rest):
         return
     carried = _closer([first, last], CARRIED_STEP)
-    yield judging.UP, blade.carried(carried)
-    yield judging.DOWN, blade.carried(carried[::-1])
+    for look, order in ((judging.UP, carried), (judging.DOWN, carried[::-1])):
+        yield look, follow(partial(_carried, order), carried)
     close = judging.closeness(requirements, rest)
     near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[: _speeds_near(close)]]).tolist()
     for look, factor in _FRICTION.items():
         if scene := blade.rising_scene.scaled_friction(factor):
-            yield look, blade.runs_from_rest(near, scene)
-    yield judging.HALF_STEP, blade.runs_from_rest(near, time_step=0.5 * blade.long_choice.time_step)
+            yield look, follow(partial(from_rest, scene=scene), near)
+    yield judging.HALF_STEP, follow(partial(from_rest, time_step=0.5 * blade.long_choice.time_step), near)
     if blade.coarser:
-        yield judging.COARSER_MESH, blade.coarser.runs_from_rest(near)
+        yield judging.COARSER_MESH, _followed(blade.coarser, requirements, evidence, from_rest, near)
+
+
+def _carried(order: Sequence[float], blade: JudgedBlade, _: Sequence[float]) -> xr.Dataset:
+    """The motion carried through all speeds (rad/s) in an `order`, whichever are wanted."""
+    return blade.carried(order)
+
+
+def _followed(
+    blade: JudgedBlade,
+    requirements: Requirements,
+    evidence: Evidence,
+    run: Callable[[JudgedBlade, Sequence[float]], xr.Dataset],
+    speeds: Sequence[float],
+) -> xr.Dataset:
+    """Runs at speeds (rad/s); those whose motion grows last up to FOLLOWED revolutions.
+
+    At most MOST_NEAR of them do, those nearest to a limit. They have the larger stress and wear of both lengths. `followed`: 1
+    for them, 0 for others.
+    """
+    runs = run(blade, speeds)
+    runs = runs.assign(followed=("speed", np.zeros(runs.sizes["speed"])))
+    if not len(grows := judging.growing(requirements, evidence.replaced(runs))[:MOST_NEAR]):
+        return runs
+    longer = run(replace(blade, follows=True), np.sort(grows).tolist())
+    longer = longer.assign({name: np.fmax(runs[name], longer[name]) for name in SCALED if name in longer})
+    return overlaid(runs, longer.assign(followed=("speed", np.ones(longer.sizes["speed"]))))
 
 
 def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
@@ -165,12 +203,12 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
     for look, changed in changes.items():
         if changed != scene and speeds:
             # what grows slowly may pass its largest motion before the end: the later half of the run counts
-            run = partial(blade.runs_from_rest, scene=changed, until_settled=look != judging.SLOWEST_RISE)
+            run = partial(JudgedBlade.runs_from_rest, scene=changed, is_whole=look == judging.SLOWEST_RISE)
             tried = speeds
             if near.max() >= 1.0 and not requirements.above_yield:
-                alone = (judging.nearness(requirements, runs.replaced(run([speed]))).max() for speed in speeds)
+                alone = (judging.nearness(requirements, runs.replaced(run(blade, [speed]))).max() for speed in speeds)
                 tried = next((speeds[:count] for count, nearest in enumerate(alone, 1) if nearest >= 1.0), speeds)
-            yield look, run(tried)
+            yield look, _followed(blade, requirements, runs, run, tried)
 
 
 def _speeds_near(near: np.ndarray) -> int:

@@ -89,7 +89,9 @@ def judge(input: Any, output: Any, params: Any) -> None:
     notes = ((row.note, doubted.get((row.blade, row.scene))) for row in table.itertuples())
     table["note"] = ["; ".join(filter(None, both)) for both in notes]
     write_table(table, output.verdict, digits=6)
-    runs = {pair: fields["looks"].get(REST, xr.Dataset()) for pair, fields in known.items()}
+    runs = {
+        pair: fields["looks"].get(REST, xr.Dataset()).drop_vars("followed", errors="ignore") for pair, fields in known.items()
+    }
     join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", {}, nullcontext)
 
 

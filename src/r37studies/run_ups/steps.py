@@ -10,11 +10,11 @@ from r37core.stress.operator import judged_operator
 from r37core.stress.statistic import Strengths
 from r37core.time_integration.speed_file import write_speed
 from r37studies.blade_runs import BladeRuns
+from r37studies.run_up_integration import RunUpIntegration
+from r37studies.run_up_revolutions import record_run_up
 
 from .choice import RunUpChoice
 from .dataset import VARIABLES, write_run_ups
-from .integration import RunUpIntegration
-from .revolutions import record_run_up
 from .tables import rate_table, run_up_table
 
 

@@ -22,7 +22,7 @@ from r37core.time_integration.segments import segments_at
 from r37core.time_integration.simulate import Simulation, rest_state
 from r37core.time_integration.state import Schedule
 
-from .choice import RunUp, schedule
+from .run_up_schedule import RunUp, schedule
 
 _AT_ONCE = 64
 """Revolutions that the engine does in one call, fewer where they have many steps."""

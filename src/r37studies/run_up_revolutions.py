@@ -16,9 +16,9 @@ from r37core.time_integration.kept_numbers import KEPT, amplitudes, append_rotat
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_arrays import SPECTRUM
 from r37core.time_integration.status import RunStatus
-from r37studies.run_ups.damage import largest_damage, operator_numbers
 
-from .integration import IntegratedSegments, RunUpIntegration
+from .cycle_damage import largest_damage, operator_numbers
+from .run_up_integration import IntegratedSegments, RunUpIntegration
 
 _AT_ONCE, _INSTANTS_AT_ONCE = 32, 256
 """Revolutions that wait at most before they are reduced; instants whose stresses are in memory together."""
@@ -35,8 +35,8 @@ def record_run_up(
 ) -> dict[str, np.ndarray]:
     """Do a run-up, and keep of every whole revolution what is asked for in `results`.
 
-    Returned are arrays of dataset.VARIABLES. `miner_sum` is by these `strengths`, and infinite of a run that diverges. Such
-    a run has the revolutions before; one that diverges while it wears the lining is that of the lining as new.
+    Returned are arrays of run_ups.dataset.VARIABLES. `miner_sum` is by these `strengths`, and infinite of a run that
+    diverges. Such a run has the revolutions before; one that diverges while it wears the lining is that of the lining as new.
     """
     orders, run_up, choice = highest_order if "spectrum" in results else None, integration.run_up, integration.choice
     diverged = False
