@@ -347,6 +347,17 @@ def test_comparison_takes_the_order_that_most_blades_meet(datasets):
     assert alone.axes[0].texts[0].get_text().startswith("no crossing of 1B was run")
 
 
+def test_comparison_names_each_blade_that_it_does_not_draw(datasets):
+    """One whose crossing lies outside the speeds that were run, and one without any: it may be the better design."""
+    few = {kind: datasets[kind].sel(scene="abradable", speed=slice(1650.0, 2000.0)) for kind in ("rms", "stress")}
+    crossing = datasets["campbell"].copy(deep=True)
+    crossing["crossing_speed"].loc[{"blade": ["L50", "S100"], "mode": "1B", "engine_order": 4}] = [1500.0, np.nan]
+    figure = draw_comparison(crossing, few["rms"], few["stress"], "abradable")
+    assert {line.get_label() for line in figure.axes[0].lines} & {*BLADES} == {"Ref"}
+    assert figure.axes[0].get_title().endswith("their own crossing was run: L50 (1500 rad/s), S100 (no crossing)")
+    assert compared(datasets).axes[0].get_title() == "blades in scene abradable"
+
+
 def test_comparison_is_over_each_blade_s_own_crossing(datasets):
     curves = {line.get_label(): line for line in compared(datasets).axes[0].lines if line.get_label() in BLADES}
     for blade, line in curves.items():

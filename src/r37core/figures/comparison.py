@@ -1,6 +1,7 @@
 """Blades compared: around an interaction that they share, and by their speeds above yield, scene by scene."""
 
 from collections.abc import Sequence
+from textwrap import fill
 
 import numpy as np
 import pandas as pd
@@ -50,7 +51,8 @@ def draw_comparison(
 
     Speeds are those above the crossing, as shares of it: the crossings of the blades lie hundreds of rad/s apart. The
     picture reaches from `below` to `above` the crossing, as shares too: where peaks are looked for. Runs that diverged are
-    crosses of the blade's colour at the upper edge. `further_runs`: of a verdict.
+    crosses of the blade's colour at the upper edge. The title names the blades of which no run lies there, with their
+    crossings. `further_runs`: of a verdict.
     """
     rms = with_further_runs("rms", rms, further_runs)
     stress = None if stress is None else with_further_runs("stress", stress, further_runs)
@@ -62,14 +64,17 @@ def draw_comparison(
         panels_of[style.stress_label(stress)] = stress["max_von_mises_median"]
     figure, grid = style.panels(len(panels_of), 1, 1.9 * len(panels_of) + 0.5, sharex=True)
     panels = grid[:, 0]
+    crossings = campbell["crossing_speed"].sel(mode="1B", engine_order=order).to_series() if order else {}
+    left_out = {blade: crossings[blade] for blade in rms["blade"].values if order}
     for axes, (label, values) in zip(panels, panels_of.items(), strict=True):
         for blade in values["blade"].values if order else []:
-            crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=order))
+            crossing = crossings[blade]
             about = slice((1.0 - below) * crossing, (1.0 + above) * crossing)
             curve = values.sel(blade=blade, speed=about).dropna("speed")
             status = rms["status"].sel(blade=blade, speed=about)
             diverged = status["speed"].values[status.values == RunStatus.DIVERGED]
             if curve.size or len(diverged):
+                left_out.pop(blade, None)
                 above_crossing = 100 * (curve["speed"] / crossing - 1.0)
                 if stress is not None and axes is panels[2]:
                     runs = stress.sel(blade=blade, speed=curve["speed"])
@@ -87,7 +92,10 @@ def draw_comparison(
         panels[-1].set_xlabel(f"speed above the crossing of 1B with engine order {order} (%)")
     else:
         style.say(panels[0], "no crossing of 1B was run: see the figures of each blade")
-    panels[0].set_title(f"blades in scene {title}")
+    # of two designs the better one may be the one whose crossing was not run
+    texts = [f"{blade} ({'no crossing' if np.isnan(speed) else f'{speed:.0f} rad/s'})" for blade, speed in left_out.items()]
+    missing = fill(f"not drawn, as no speed near their own crossing was run: {', '.join(texts)}", 110) if texts else ""
+    panels[0].set_title(f"blades in scene {title}\n{missing}".strip())
     if panels[0].lines[:-1]:
         style.legend_below(figure, panels, 5)
     return figure

@@ -125,7 +125,8 @@ FIGURES = (
         caption="All blades in scene {scene} around the same interaction: 1B with the engine order that most of them meet. "
         "Over the speed above each blade's own crossing: rms of the leading edge, normal to the casing and tangential, and "
         "stress from the median of the later revolutions to the largest (thin), tinted above yield. Contact stiffens a blade, "
-        "so peaks lie above the crossing. Crosses at the upper edge: runs that diverged.",
+        "so peaks lie above the crossing. Crosses at the upper edge: runs that diverged. Blades without a run near their own "
+        "crossing are named in the title.",
         arguments=lambda sweep: {
             **{name: getattr(sweep.settings.config.interactions, name) for name in ("below", "above")},
             "drawn": {"blade": sweep.drawn["blade"]},
