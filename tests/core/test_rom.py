@@ -112,7 +112,7 @@ def test_rotation_terms_only_when_asked(mesh, matrices, reduced, model, tmp_path
     np.testing.assert_allclose(full.modes(1500.0, 10)[0], exact, rtol=1e-4)
 
 
-def test_file_holds_the_model(model, tmp_path):
+def test_file_holds_the_model(mesh, model, tmp_path):
     file = tmp_path / "rom.nc"
     write_reduced_model(replace(model, contact="patches"), file, {"blade": "Ref"})
     again = read_reduced_model(file)
@@ -131,6 +131,7 @@ def test_file_holds_the_model(model, tmp_path):
     for line in model.tip_lines:
         np.testing.assert_array_equal(again.tip_lines[line].basis, model.tip_lines[line].basis)
     assert (again.tolerance, again.shape_names) == (model.tolerance, model.shape_names)
+    assert again.mesh_nodes == len(mesh.points)
     file.write_bytes(file.read_bytes()[:5000])
     with pytest.raises(InputFileError, match=r"rom\.nc: cannot be read"):
         read_reduced_model(file)

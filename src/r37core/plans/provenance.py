@@ -47,8 +47,8 @@ def sweep_provenance(settings: Settings, blade: str, scene: str) -> Attributes:
         revolutions=chosen.revolutions,
         **({"until": "settled"} if chosen.until_settled else {}),
         largest_time_step=steps.largest_step(chosen.scene),
-        # steps of all kinds of scenes, because datasets of one level may be joined
-        numerics=f"{settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.wording}",
+        # of the level, meshes and steps of all kinds of scenes, because its datasets may be joined; a rom.nc has its own mesh's
+        numerics=f"{settings.fidelity.mesh.nodes} nodes unless imported, {steps.integrator} of {steps.wording}",
     )
 
 

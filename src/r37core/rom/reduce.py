@@ -68,4 +68,5 @@ def reduce_blade(
         tolerance=reduction.basis_tolerance,
         singular_values=singular_values,
         rotation_stiffening=rotation_stiffening,
+        mesh_nodes=len(mesh.points),
     )

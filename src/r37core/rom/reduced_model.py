@@ -27,7 +27,8 @@ class ReducedModel:
     columns over all speeds. `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation;
     none of a blade whose load is not known. `quadratic_residual`: share of the Omega^4 term in the reduced stiffness at the
     highest speed. `logarithmic_stiffness`, whose matrices its modes at rest project, and `quadratic`: of a blade about its
-    equilibrium under rotation; its `geometric_stiffness` is the mean change up to half of the highest speed.
+    equilibrium under rotation; its `geometric_stiffness` is the mean change up to half of the highest speed. `mesh_nodes`: of
+    the mesh that it is made of, 0 of matrices.
     """
 
     stiffness: np.ndarray
@@ -50,6 +51,7 @@ class ReducedModel:
     quadratic_residual: float
     logarithmic_stiffness: LogarithmicStiffness | None = None
     quadratic: QuadraticTerms | None = None
+    mesh_nodes: int = 0
 
     @property
     def size(self) -> int:

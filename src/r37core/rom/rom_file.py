@@ -110,6 +110,7 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
         "tip_line_names": list(model.tip_lines),
         "stress_region_names": " ".join(model.stress_regions),
         "contact": model.contact,
+        "mesh_nodes": model.mesh_nodes,
     }
     dataset = xr.Dataset(data, coords={"shape": list(model.shape_names)}, attrs=attributes)
     write_dataset(dataset, file, provenance)
@@ -130,6 +131,7 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
             shape_names=tuple(str(name) for name in dataset["shape"].values),
             tolerance=float(dataset.attrs["basis_tolerance"]),
             quadratic_residual=float(dataset.attrs["quadratic_residual"]),
+            mesh_nodes=int(dataset.attrs["mesh_nodes"]),
             **{field: _part(dataset, group, kind, table) for group, (field, kind, table) in _PARTS.items()},
         )
 
