@@ -137,7 +137,10 @@ def test_provenance(chosen):
     assert attributes["fidelity"] == "standard"
     steps = chosen.fidelity.time_integration.largest_time_step_s
     assert attributes["largest_time_step"] == steps.direct
-    assert attributes["numerics"] == f"20000 nodes unless imported, exact_modal of {steps.lined:g} s with lining, {steps.direct:g} s without"
+    assert (
+        attributes["numerics"]
+        == f"20000 nodes unless imported, exact_modal of {steps.lined:g} s with lining, {steps.direct:g} s without"
+    )
     # what joins datasets of one level
     assert Sweep(chosen).provenance(REF)["numerics"] == attributes["numerics"]
     assert from_plain(Scene, json.loads(attributes["scene_parameters"])) == chosen.scenes["direct"].scene
