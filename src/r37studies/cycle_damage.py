@@ -17,6 +17,20 @@ def operator_numbers(stress: StressOperator, states: np.ndarray, shapes: np.ndar
     return np.concatenate([states @ shapes.T, rotation], axis=1).astype(np.float32)
 
 
+def goodman_shares(stress: StressOperator, numbers: np.ndarray, strengths: Strengths) -> np.ndarray:
+    """Largest share of the Goodman line of all nodes in each revolution, shape (revolutions,).
+
+    `numbers`: operator_numbers, shape (revolutions, instants, numbers). Stresses are those of r37core.stress.revolutions.
+    """
+    parts, traces = (each[..., : numbers.shape[-1]] for each in (stress.deviatoric, stress.trace))
+    shares = []
+    for revolution in numbers:
+        mean = revolution.mean(axis=0)
+        alternating = np.sqrt(sum(np.square((revolution - mean) @ part.T) for part in parts))
+        shares.append(strengths.share(alternating.max(axis=0), traces @ mean).max())
+    return np.array(shares)
+
+
 def largest_damage(stress: StressOperator, numbers: np.ndarray, strengths: Strengths) -> tuple[float, float]:
     """Largest range of the stress (Pa) and largest Miner's sum of all nodes; NaN for the sum without an S-N line.
 

@@ -17,7 +17,7 @@ from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_arrays import SPECTRUM
 from r37core.time_integration.status import RunStatus
 
-from .cycle_damage import largest_damage, operator_numbers
+from .cycle_damage import goodman_shares, largest_damage, operator_numbers
 from .run_up_integration import IntegratedSegments, RunUpIntegration
 
 _AT_ONCE, _INSTANTS_AT_ONCE = 32, 256
@@ -71,15 +71,19 @@ def record_run_up(
         "worn": int(run_up.worn),
         "yield_stress": yield_stress,
     }
+    arrays = revolutions.joined()
     if stress is not None and cycles:
-        largest, damage = np.nan, np.inf if strengths.have_line else np.nan
+        largest, damage, all_cycles = np.nan, np.inf if strengths.have_line else np.nan, np.concatenate(cycles)
+        per_revolution = choice.snapshots_per_revolution
         if not diverged:
-            after = np.concatenate(cycles)[run_up.before * choice.snapshots_per_revolution :]
-            largest, damage = largest_damage(stress, after, strengths)
+            largest, damage = largest_damage(stress, all_cycles[run_up.before * per_revolution :], strengths)
         numbers |= {"largest_stress_range": largest, "miner_sum": damage}
+        count = len(arrays["speed"])
+        whole = all_cycles[: count * per_revolution].reshape(count, per_revolution, -1)
+        arrays["goodman_share"] = goodman_shares(stress, whole, strengths)
     if "energy" in results:
         numbers |= {**integration.balance, "stiffness_work": integration.stiffness_work}
-    arrays = revolutions.joined() | {name: np.array(number) for name, number in numbers.items()}
+    arrays |= {name: np.array(number) for name, number in numbers.items()}
     return {name: array for name, array in arrays.items() if name != "max_wear" or "wear" in results}
 
 

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from defaults import IntegrationChoice, Lining
@@ -18,6 +19,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
+from r37studies.requirements import choice
 from r37studies.requirements import looks as further_runs
 from r37studies.requirements.choice import Requirements
 from r37studies.requirements.evidence import HALF_FRICTION, Evidence, beyond_model
@@ -30,9 +32,9 @@ from r37studies.requirements.judging import (
     HIGHEST_DAMPING,
     LARGE_CHANGES,
     LESS_FRICTION,
-    LOOKS,
     LOWEST_DAMPING,
     MORE_FRICTION,
+    REPEATED,
     REST,
     SLIGHTLY_MORE_FRICTION,
     SLOW_RISE,
@@ -41,6 +43,9 @@ from r37studies.requirements.judging import (
     judge,
 )
 from r37studies.requirements.looks import JudgedBlade, joined_looks, looks_in, looks_of
+from r37studies.run_up_integration import RunUpIntegration
+from r37studies.run_up_revolutions import record_run_up
+from r37studies.run_up_schedule import RunUp
 
 CHOICE = IntegrationChoice(6.4e-6, 12, 62, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
@@ -52,6 +57,7 @@ LINED = replace(
 )
 FLOWN = OperatingRange(1300.0, 1310.0)
 NEEDS = Requirements(used_lining=0.5)
+LARGE_LOOKS = (REST, *LARGE_CHANGES, UP, DOWN)
 RESULTS = ("wear", "spectrum")
 
 
@@ -60,6 +66,7 @@ def lined(contact, monkeypatch, tmp_path):
     """A lined blade whose runs end after 20 revolutions at the latest."""
     monkeypatch.setattr(further_runs, "LONGEST", 20)
     monkeypatch.setattr(further_runs, "FOLLOWED", 48)
+    monkeypatch.setattr(choice, "RUN_UPS", (4,))
     monkeypatch.setattr(further_runs, "PUBLISHED_REVOLUTIONS", CHOICE.revolutions)
     material = {"yield_stress": 1e9, "strengths": UNKNOWN}
     blade = JudgedBlade(contact, LINED, CHOICE, RESULTS, KEPT, parts=Parts(tmp_path / "runs", "lined"), **material)
@@ -84,6 +91,7 @@ def asked(lined, monkeypatch):
         JudgedBlade, "runs_from_rest", lambda _, speeds, *of, **changes: evidence(speeds=sorted(speeds)).response
     )
     monkeypatch.setattr(JudgedBlade, "carried", lambda _, speeds: evidence(speeds=sorted(speeds)).response)
+    monkeypatch.setattr(JudgedBlade, "run_up", lambda _, start, stop, revolutions, speeds: evidence(speeds=speeds).response)
     monkeypatch.setattr(further_runs, "MOST_NEAR", 1)
 
     def speeds(of=FAILED, needs=NEEDS, blade=lined, **numbers):
@@ -96,7 +104,9 @@ def asked(lined, monkeypatch):
 
 def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_be(lined, contact):
     found = dict(looks_of(lined, NEEDS, evidence()))
-    assert tuple(found) == tuple(look for look in LOOKS if look != HALF_FRICTION)
+    # (1310^2 - 1300^2) / 2 over four revolutions
+    run_ups = [f"in a run-{direction} at 519 rad/s2" for direction in ("up", "down")]
+    assert [*found] == [*LARGE_LOOKS, *run_ups, *REPEATED]
     assert found[REST]["speed"].values.tolist() == [1300.0, 1302.5, 1305.0, 1307.5, 1310.0]
     for motion in (UP, DOWN):
         assert found[motion]["speed"].values.tolist() == [1300.0, 1305.0, 1310.0]
@@ -157,6 +167,30 @@ def test_stress_before_a_run_settles_is_known(contact, model, steel, lined):
     every = replace(choice, revolutions=20, until_settled=True, snapshot_revolutions=20)
     run = run_speed(contact, speed, blade.rising_scene, every, ("stress",), stress=stress, **KEPT)
     assert largest == run["revolution_von_mises"].max() > 1.1 * run_row(run, 1e9, UNKNOWN)["max_von_mises_ever"][0]
+
+
+@pytest.mark.parametrize("ends", [(1300.0, 1340.0), (1340.0, 1300.0)])
+def test_a_run_up_has_the_largest_stress_about_each_speed(contact, model, steel, lined, ends):
+    """And all the wear of the run-up; next to speeds without a revolution that of the nearest."""
+    stress, speeds, results = {"box": stress_operators(model, steel)["box"]}, [1300.0, 1320.0, 1340.0], ("stress", "wear")
+    choice = replace(CHOICE, snapshots_per_revolution=31)
+    blade = replace(lined, choice=choice, results=(*results, "spectrum"), stress=stress)
+    runs = blade.run_up(*ends, 12.0, speeds)
+    expected = record_run_up(
+        RunUpIntegration(
+            contact, blade.rising_scene, replace(choice, snapshot_revolutions=12), RunUp(*ends, 12.0, 12, 0, False)
+        ),
+        results,
+        highest_order=0,
+        stress=stress["box"],
+        yield_stress=1e9,
+    )
+    revolutions = pd.DataFrame({name: expected[name] for name in ("speed", "max_von_mises")})
+    for speed in speeds:
+        away = (revolutions["speed"] - speed).abs()
+        about = revolutions[away <= max(2.5, away.min())]["max_von_mises"]
+        assert runs["max_von_mises_median"].sel(speed=speed) == about.max()
+    assert runs["used_thickness"].min() == runs["used_thickness"].max() > expected["max_wear"][-1] > 0.0
 
 
 def test_a_motion_is_carried_on_in_a_new_lining(lined):
@@ -236,7 +270,8 @@ def test_nothing_more_is_run_of_what_fails(asked, monkeypatch):
 
 def test_without_friction_only_the_step_is_changed(asked, lined):
     bare = replace(lined, scene=replace(DIRECT, friction=None), results=(), coarser=None)
-    assert tuple(asked(evidence(), blade=bare)) == (REST, BRIEF_RISE, SLOW_RISE, SLOWEST_RISE, UP, DOWN, HALF_STEP)
+    run_ups = tuple(f"in a run-{direction} at 519 rad/s2" for direction in ("up", "down"))
+    assert tuple(asked(evidence(), blade=bare)) == (REST, BRIEF_RISE, SLOW_RISE, SLOWEST_RISE, UP, DOWN, *run_ups, HALF_STEP)
 
 
 SPEEDS, NEAR = 1000.0 + 2.5 * np.arange(4), np.array([0.2, 0.6, 0.61, 0.2])

@@ -34,6 +34,17 @@ class OperatingRange:
         float, Key("Share of the speed by which the judged range reaches beyond both ends", "_percent", ge=0, lt=100)
     ] = 0.0
     dwell: tuple[OperatingDwell, ...] = field(default=())
+    rate: Annotated[
+        float | None,
+        Key(
+            "Rate of the run-ups and run-downs that a verdict tries; by default three",
+            "_rad_s2",
+            ge=1e-3,
+            le=1e9,
+            optional=True,
+        ),
+        Key("The same rate in revolutions per minute per second", "_rpm_s", ge=1e-2, le=1e10, optional=True),
+    ] = None
 
     @property
     def first(self) -> float:

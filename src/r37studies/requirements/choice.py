@@ -3,6 +3,8 @@
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Self
 
+import numpy as np
+
 from r37core.base.declared import Key
 from r37core.results.operating_range import OperatingRange
 
@@ -32,6 +34,9 @@ LONGEST = 1000
 
 FOLLOWED = 3200
 """Most revolutions of a run whose motion still grows after LONGEST."""
+
+RUN_UPS = (100, 500, 2500)
+"""Revolutions of the run-ups over the judged range where the operating range has no rate of its own."""
 
 RESULTS = ("spectrum", "stress", "static_stress", "fatigue", "wear")
 """Results of a scene that further runs have: those that requirements and interactions need."""
@@ -93,7 +98,14 @@ class Requirements:
         return self != Requirements()
 
 
+def run_up_lengths(operating: OperatingRange) -> dict[float, float]:
+    """Rate (rad/s2) of each run-up over the judged range, and of its run-down -> its revolutions."""
+    squares = (operating.last**2 - operating.first**2) / (4.0 * np.pi)
+    lengths = [squares / operating.rate] if operating.rate else RUN_UPS
+    return {squares / length: length for length in lengths}
+
+
 def most_further_runs(operating: OperatingRange) -> int:
-    """Further runs of a blade and scene in an operating range, without those about peaks."""
+    """Further runs of a blade and scene at constant speed in an operating range, without those about peaks."""
     width = operating.last - operating.first
     return round(width / STEP + 2.0 * width / CARRIED_STEP) + OTHERS * MOST_NEAR

@@ -24,6 +24,7 @@ from .evidence import HALF_FRICTION, Evidence, beyond_model, extended, lacking, 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
 UP, DOWN, REST = "carried up", "carried down", "from rest"
+RUN_UP, RUN_DOWN = "in a run-up", "in a run-down"
 MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION = "1% more friction", "1% less friction", "0.1% more friction"
 HALF_STEP, COARSER_MESH = "half the step", "a mesh of half the nodes"
 REPEATED = (MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION, HALF_STEP, COARSER_MESH)
@@ -317,7 +318,7 @@ def _trials(evidence: Evidence) -> list[Trial]:
         share = runs["share_of_revolutions_above_yield"].where(~(runs["max_von_mises_of_run"] > runs["yield_stress"]), 1.0)
         ever = runs.assign(share_of_revolutions_above_yield=share)
         trials.append(Trial("before it settles", evidence.replaced(ever)))
-    motions = {name: looks[name] for name in (UP, DOWN) if name in looks}
+    motions = {name: motion for name, motion in looks.items() if name.startswith((UP, DOWN, RUN_UP, RUN_DOWN))}
     if evidence.motions is not None and (worst := worst_of(swept(evidence.motions))).sizes["speed"]:
         motions["in the worst motion"] = extended(runs, worst)
     return trials + [Trial(name, evidence.replaced(motion), is_motion=True) for name, motion in motions.items()]

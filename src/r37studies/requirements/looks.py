@@ -1,8 +1,8 @@
 """Further runs that a verdict waits for: those that could overturn what the sweep's own runs say.
 
 From rest until the motion has settled, also between the sweep's speeds; with damping at the ends of its range, and lobes that
-rise faster and slower; carried up and down; with other friction; with half the step and on a coarser mesh. Of a requirement
-that the sweep's runs fail clearly only other damping and rise are tried, which may keep it.
+rise faster and slower; carried up and down; in run-ups and run-downs; with other friction; with half the step and on a coarser
+mesh. Of a requirement that the sweep's runs fail clearly only other damping and rise are tried, which may keep it.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -21,16 +21,21 @@ from r37core.contact.scene import Scene
 from r37core.results.datasets import overlaid
 from r37core.results.response import run_row
 from r37core.results.variables import AXES, OF_ALL_SPEEDS, VARIABLES
+from r37core.stress.operator import judged_operator
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
+from r37core.time_integration.kept_numbers import wear_numbers
 from r37core.time_integration.settling import remaining_drift, window_of
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 from r37studies.blade_runs import BladeRuns
+from r37studies.run_up_integration import RunUpIntegration
+from r37studies.run_up_revolutions import record_run_up
+from r37studies.run_up_schedule import RunUp
 
 from . import judging
-from .choice import BRIEF, CARRIED_STEP, FOLLOWED, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements
+from .choice import BRIEF, CARRIED_STEP, FOLLOWED, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements, run_up_lengths
 from .evidence import HALF_FRICTION, OF_ALL, SCALED, Evidence, peak_reach, soonest_divergence
 
 _MOST_PEAKS = 12
@@ -89,6 +94,39 @@ class JudgedBlade(BladeRuns):
         files = self.parts.carried(speeds, (scene, choice), partial(self.numbers_at, scene, choice))
         return self._dataset(dict(zip(speeds, files, strict=True)))
 
+    def run_up(self, start: float, stop: float, revolutions: float, speeds: Sequence[float]) -> xr.Dataset:
+        """Largest stress about each of the `speeds` (rad/s) in a run-up within so many revolutions, and all its wear.
+
+        It begins with the revolutions of the sweep's runs, in which the lobes grow. One that diverges does so at all speeds.
+        """
+        before, scene = self.choice.revolutions, self.rising_scene
+        kept = before if self.choice.snapshots_per_revolution else 0
+        choice = replace(self.choice, until_settled=False, snapshot_revolutions=kept)
+        integration = RunUpIntegration(self.model, scene, choice, RunUp(start, stop, revolutions, before, 0, False))
+        numbers = record_run_up(
+            integration,
+            [each for each in self.results if each != "spectrum"],
+            highest_order=0,
+            stress=judged_operator(self.stress) if self.stress else None,
+            yield_stress=self.yield_stress,
+            strengths=self.strengths,
+        )
+        distance = np.abs(np.subtract.outer(speeds, numbers["speed"]))
+        is_near = distance <= np.maximum(distance.min(axis=1, keepdims=True), 0.5 * CARRIED_STEP)
+        values = {
+            to: np.max(np.where(is_near, numbers[name], -np.inf), axis=1)
+            for to, name in (("max_von_mises_median", "max_von_mises"), ("goodman_share", "goodman_share"))
+            if name in numbers
+        }
+        if "max_von_mises_median" in values:
+            values["share_of_revolutions_above_yield"] = 1.0 * (values["max_von_mises_median"] > self.yield_stress)
+        same = {name: numbers[name] for name in ("status", "largest_normal_force")}
+        if scene.lining:
+            worn = wear_numbers(integration.state.wear, 1, scene.lining, np.zeros(1))
+            same |= {name: worn[name] for name in ("used_thickness", "worn_through_share")}
+        values |= {name: np.full(len(speeds), value) for name, value in same.items()}
+        return xr.Dataset({name: ("speed", each) for name, each in values.items()}, {"speed": speeds})
+
     def _row(self, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
         row = run_row(numbers, self.yield_stress, self.strengths)
         if "revolution_von_mises" in numbers:
@@ -144,6 +182,9 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     carried = _closer([first, last], CARRIED_STEP)
     for look, order in ((judging.UP, carried), (judging.DOWN, carried[::-1])):
         yield look, follow(partial(_carried, order), carried)
+    for rate, revolutions in run_up_lengths(evidence.operating).items():
+        for look, ends in ((judging.RUN_UP, (first, last)), (judging.RUN_DOWN, (last, first))):
+            yield f"{look} at {rate:.3g} rad/s2", blade.run_up(*ends, revolutions, carried)
     close = judging.closeness(requirements, rest)
     near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[: _speeds_near(close)]]).tolist()
     for look, factor in _FRICTION.items():
@@ -222,7 +263,7 @@ def joined_looks(looks: Mapping[str, xr.Dataset]) -> xr.Dataset:
         return xr.Dataset(coords={"look": np.empty(0, dtype=object)})
     first, *_ = looks.values()
     parts = [runs.drop_vars(OF_ALL, errors="ignore") for runs in looks.values()]
-    return xr.concat(parts, pd.Index(looks, name="look"), join="outer").assign(
+    return xr.concat(parts, pd.Index(looks, name="look"), join="outer", coords="minimal").assign(
         {name: first[name] for name in OF_ALL if name in first}
     )
 

@@ -23,7 +23,7 @@ from r37core.rom.naming import mode_names
 from r37core.rom.reduction_choice import POINTS
 from r37studies.other_models import MODEL_FILES, ModelChoice, tip_elements
 
-from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
+from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs, run_up_lengths
 
 
 @declared_by(CampbellMargin)
@@ -203,9 +203,16 @@ _LOOKED = 0.7
 
 def further_runs(settings: Settings) -> dict[Pair, Runs]:
     """Further runs that a verdict may need, by blade and scene: none where a requirement fails clearly or nothing touches."""
-    operating = operating_range(settings)
-    most = most_further_runs(operating) if operating else 0
-    return {pair: Runs(_LOOKED * most, 0) for pair in Judged(Sweep(settings)).looked}
+    runs: dict[Pair, Runs] = {}
+    if (operating := operating_range(settings)) is None:
+        return runs
+    for pair in Judged(Sweep(settings)).looked:
+        number, lengths = _LOOKED * most_further_runs(operating), run_up_lengths(operating).values()
+        revolutions = settings.scenes[pair[1]].revolutions
+        # each begins with the revolutions of a run
+        run_ups = 2.0 * sum(1.0 + length / revolutions for length in lengths)
+        runs[pair] = Runs(number + 2 * len(lengths), 0, number + run_ups)
+    return runs
 
 
 def remarks(settings: Settings) -> list[str]:

@@ -45,6 +45,7 @@ VARIABLES = {
         _ORDER, "m", "amplitude of the leading edge's tangential displacement in the revolution", "f4"
     ),
     "max_von_mises": Variable(_TURN, "Pa", "largest von Mises stress in the region that decides, in the revolution"),
+    "goodman_share": Variable(_TURN, "1", "largest share of the Goodman line in the revolution"),
     "max_wear": Variable(
         _TURN, "m", "largest wear of the lining by the end of the constant-speed segment, up to 7 revolutions on"
     ),
