@@ -70,7 +70,7 @@ def test_tables_and_figure_wait_for_the_further_runs_of_a_verdict(project):
     assert "verdict" not in planned_outputs(project)
     overlay(project, "config.yaml", "requirements: { above_yield_at_most_rad_s: 0 }")
     taken_by = {file for job in plan(project) if "results/further_runs.nc" in job.inputs for file in job.outputs}
-    files = {"ranking.csv", "summary.csv", "operating.csv", "figures/response_Ref.png"}
+    files = {"ranking.csv", "summary.csv", "figures/response_Ref.png"}
     assert {f"results/{file}" for file in files} <= taken_by
 
 

@@ -32,24 +32,27 @@ def test_all_further_runs_are_counted_and_cost_what_they_are_long(root, tmp_path
     (file := tmp_path / "further.yaml").write_text(FURTHER)
     settings = read_settings(root, read_document(tmp_path, "further.yaml"))
     whole, pair = whole_extent(settings), ("Ref", "abradable")
-    assert number_of(whole) == 100 + 400 + 11 + round(plan._LOOKED * 664)
+    assert number_of(whole) == 100 + 400 + 11 + round(plan._LOOKED * 664 + 6)
     assert {name: (runs[pair].fewest, runs[pair].number) for name, runs in whole.items()} == {
         "sweep": (26, 100),
         "tolerances": (4 * 26, 4 * 100),
         # up, down, and from rest, of which the sweep has all; seven dwells of 3000 revolutions
         "second_motions": (None, 10),
         "run_ups": (None, 1),
-        "requirements": (0, plan._LOOKED * (200 + 200 + 264)),
+        # up and down at three rates
+        "requirements": (0, plan._LOOKED * (200 + 200 + 264) + 6),
     }
     assert whole["second_motions"][pair].length == pytest.approx(10 + 7 * 3000 / 200)
     assert whole["run_ups"][pair].length == pytest.approx(400 / 200)
+    run_ups = 2 * (300 + 700 + 2700)
+    assert whole["requirements"][pair].length == pytest.approx(plan._LOOKED * 664 + run_ups / 200)
     runs = estimate.values(settings, whole)["runs"]
     assert number_of(whole) == round(sum(number for several in runs.values() for number, _ in several.values()))
     assert main(["check", str(root / "config/config.yaml"), str(file)]) == 0
     told = capsys.readouterr().out
     assert "simulations: sweep about 100, as results ask (26 at least), " in told
     assert ", run_ups 1, second_motions 10, " in told and "at most" not in told
-    lengths = 100 + 400 + whole["requirements"][pair].number + whole["second_motions"][pair].length + 2
+    lengths = 100 + 400 + whole["requirements"][pair].length + whole["second_motions"][pair].length + 2
     seconds = fixed_seconds(settings, whole) + lengths * simulation_seconds(settings, pair) + 100 * extent.JOB_S
     assert f"CPU time: about {seconds / 60:.1f} minutes" in told
 

@@ -12,9 +12,8 @@ from box_mesh import box_mesh
 from integration_cases import DIRECT
 
 from r37core.base.dataset_file import read_dataset, write_dataset
-from r37core.base.io import write_json
 from r37core.base.plain import to_plain
-from r37core.config import command_line_document
+from r37core.config import ConfigError, command_line_document, operating_range
 from r37core.fem.assembly import mesh_volume
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
@@ -28,7 +27,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 from r37studies.other_models import ModelChoice
 from r37studies.requirements import steps
-from r37studies.requirements.choice import CampbellMargin, Requirements
+from r37studies.requirements.choice import CampbellMargin, Requirements, run_up_lengths
 from r37studies.requirements.evidence import Evidence, extended, worst_of
 from r37studies.requirements.judging import (
     AT_LEAST,
@@ -50,7 +49,7 @@ from r37studies.requirements.judging import (
 )
 from r37studies.requirements.looks import joined_looks
 from r37studies.requirements.plan import Judged, remarks
-from r37studies.requirements.table import closing, operating_table, overall, reason, verdict_table
+from r37studies.requirements.table import closing, overall, reason, verdict_table
 
 SPEEDS = np.arange(1000.0, 1301.0, 5.0)
 FLOWN = OperatingRange(1050.0, 1250.0)
@@ -473,17 +472,12 @@ def test_the_verdict_of_a_run(judged, tmp_path):
     assert verdict["requirement"].tolist() == ["above_yield", "mass"] * 2
     assert overall(verdict)["verdict"].tolist() == ["fails", "meets"]
     write_table(verdict, tmp_path / "verdict.csv")
-    write_json({"config": {"requirements": {"mass_at_most_kg": 0.1, "campbell_margins": []}}}, tmp_path / "configuration.json")
     lines = closing(tmp_path).splitlines()
     assert lines[1].strip() == (
         "Ref in above fails: above_yield by 25 rad/s, 1097.5 to 1122.5 rad/s "
         f"({AT_LEAST}; over 25 of 200 rad/s, 20.9 to at least 29.1 rad/s in all that was tried, scatter 2 rad/s)"
     )
     assert lines[2].strip() == "Ref in below meets"
-    # without requirements the verdict is that of a run before
-    write_table(verdict[:1], tmp_path / "operating.csv")
-    write_json({"config": {"requirements": {"campbell_margins": []}}}, tmp_path / "configuration.json")
-    assert closing(tmp_path) == "1 line on what lies in operation"
 
 
 ROW = {"scene": "s", "requirement": "mass", "verdict": MEETS, "value": 100.0, "value_lowest": 100.0, "value_highest": 100.0}
@@ -548,22 +542,6 @@ def test_the_volume_of_a_mesh():
     """A box whose inner nodes are moved: elements of any shape fill it."""
     mesh = box_mesh(0.4, 0.2, 0.3, (2, 2, 2), warp=0.1, element="wedge15")
     assert mesh_volume(mesh.blocks, mesh.points) == pytest.approx(0.4 * 0.2 * 0.3, rel=1e-12)
-
-
-def test_what_lies_in_the_operating_range(judged):
-    _, datasets, pairs = judged
-    interactions = pd.DataFrame(
-        [("Ref", "above", "1B", 4, 1110.0), ("Ref", "above", np.nan, np.nan, 1290.0)],
-        columns=["blade", "scene", "mode", "engine_order", "peak_speed_rad_s"],
-    )
-    table = operating_table(pairs, FLOWN, datasets, interactions)
-    assert table["kind"].tolist() == ["crossing", "interaction", "above_yield", "ever_above_yield"]
-    assert table["what"].tolist() == ["1B/4", "1B/4", "", ""]
-    assert table.iloc[2][["from_rad_s", "to_rad_s", "length_rad_s", "time_share"]].tolist() == [1097.5, 1122.5, 25.0, 0.125]
-    ranged = interactions.assign(scene=["above", "other"], some_revolutions_from_rad_s=1100.0, some_revolutions_to_rad_s=1300.0)
-    table = operating_table(pairs, OperatingRange(1122.45, 1250.0), datasets, ranged)
-    assert table["kind"].tolist() == ["crossing", "interaction", "above_yield", "ever_above_yield"]
-    assert table.iloc[1:3]["from_rad_s"].tolist() == [1122.45] * 2 and table.iloc[1:3]["to_rad_s"].tolist() == [1250.0, 1122.5]
 
 
 def joined(runs, scenes):
@@ -669,6 +647,29 @@ YIELD = {"above_yield_at_most_rad_s": 0.0}
 )
 def test_remarks(with_requirements, changes, lines):
     assert remarks(with_requirements(operating=RANGE, **changes)) == lines
+
+
+def test_the_ends_of_the_range_are_run_once(with_requirements):
+    """Those beyond the sweep are not; 1122 rad/s is 1.02 times 1100 but for rounding."""
+    for operating, added in (({}, []), ({"margin_percent": 2.0}, [1078.0, 1326.0]), ({"redline_rad_s": 1333.0}, [1333.0])):
+        plan = with_requirements(speeds=[{"start": 1080, "stop": 1340, "step": 20}], operating=RANGE | operating)
+        (speeds,) = plan.speed_plans.values()
+        assert [speed for speed in speeds.certain if speed % 20.0] == [speed for speed in added if speed > 1080.0]
+    rounded = with_requirements(
+        speeds=[1000.0, 1122.0, 1200.0], operating={"idle_rad_s": 1050.0, "redline_rad_s": 1100.0, "margin_percent": 2.0}
+    )
+    assert next(iter(rounded.speed_plans.values())).certain == (1000.0, 1029.0, 1050.0, 1100.0, 1122.0, 1200.0)
+
+
+def test_rates_of_run_ups(with_requirements):
+    """Omega^2 = Omega_0^2 + 2 a theta; one that takes thousands of revolutions more than others is refused."""
+    squares = 1300.0**2 - 1100.0**2
+    asked = operating_range(with_requirements(operating=RANGE | {"rate_rad_s2": 50.0}))
+    assert run_up_lengths(asked) == {50.0: pytest.approx(squares / (4.0 * np.pi * 50.0))}
+    for rate, length in run_up_lengths(operating_range(with_requirements(operating=RANGE))).items():
+        assert 2.0 * rate * 2.0 * np.pi * length == pytest.approx(squares)
+    with pytest.raises(ConfigError, match="allowed: rates over 10 to 25000 revolutions of the judged range"):
+        with_requirements(operating=RANGE | {"rate_rpm_s": 10.0}, requirements=YIELD)
 
 
 def test_what_moves_no_run_runs_no_further_runs_again(with_requirements):

@@ -59,12 +59,9 @@ class SpeedPlan:
 
     def including(self, speeds: Iterable[float]) -> "SpeedPlan":
         """The plan with more certain speeds (rad/s): those between its lowest and highest that it does not have yet."""
-        plan = self
-        for speed in speeds:
-            certain = plan.certain
-            if certain[0] < speed < certain[-1] and not any(isclose(speed, known) for known in certain):
-                plan = replace(plan, certain=tuple(sorted([*certain, speed])))
-        return plan
+        known = self.certain
+        new = {each for each in speeds if known[0] < each < known[-1] and not any(isclose(each, speed) for speed in known)}
+        return replace(self, certain=tuple(sorted(new.union(known))))
 
     def speed_count(self, largest_share: float) -> int:
         """Number of speeds that are run when so large a share of each grid may be, as a rule at most."""

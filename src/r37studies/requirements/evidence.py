@@ -34,7 +34,7 @@ OF_ALL = ("lined", "yield_stress", "static_stress", "fatigue_strength")
 """Variables that are the same at all speeds."""
 
 SCALED = ("max_von_mises_median", "goodman_share", "used_thickness")
-"""Those that an error of mesh and step scales."""
+"""Variables that an error of mesh and step scales."""
 
 SHOWN = 0.9
 """Share of a peak that speeds beside it have at least where they show how high it is."""

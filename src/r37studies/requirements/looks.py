@@ -168,12 +168,12 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     first, last = evidence.operating.first, evidence.operating.last
     error = np.nan_to_num(evidence.error, nan=judging.CLEARLY - 1.0)
     inside = [float(speed) for speed in evidence.speeds if first < speed < last]
-    from_rest = JudgedBlade.runs_from_rest
+    rest_runs = JudgedBlade.runs_from_rest
     follow = partial(_followed, blade, requirements, evidence)
     speeds = np.unique([*evidence.operating.ends, *inside]).tolist()
-    runs = follow(from_rest, _closer(speeds, STEP))
+    runs = follow(rest_runs, _closer(speeds, STEP))
     while len(new := _speeds_about_peaks(runs["speed"].values, judging.nearness(requirements, evidence.replaced(runs)), error)):
-        runs = overlaid(runs, follow(from_rest, new))
+        runs = overlaid(runs, follow(rest_runs, new))
     yield judging.REST, runs
     rest = evidence.replaced(runs)
     yield from _large_changes(blade, requirements, rest)
@@ -189,10 +189,10 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[: _speeds_near(close)]]).tolist()
     for look, factor in _FRICTION.items():
         if scene := blade.rising_scene.scaled_friction(factor):
-            yield look, follow(partial(from_rest, scene=scene), near)
-    yield judging.HALF_STEP, follow(partial(from_rest, time_step=0.5 * blade.long_choice.time_step), near)
+            yield look, follow(partial(rest_runs, scene=scene), near)
+    yield judging.HALF_STEP, follow(partial(rest_runs, time_step=0.5 * blade.long_choice.time_step), near)
     if blade.coarser:
-        yield judging.COARSER_MESH, _followed(blade.coarser, requirements, evidence, from_rest, near)
+        yield judging.COARSER_MESH, _followed(blade.coarser, requirements, evidence, rest_runs, near)
 
 
 def _carried(order: Sequence[float], blade: JudgedBlade, _: Sequence[float]) -> xr.Dataset:

@@ -23,7 +23,7 @@ from r37core.rom.naming import mode_names
 from r37core.rom.reduction_choice import POINTS
 from r37studies.other_models import MODEL_FILES, ModelChoice, tip_elements
 
-from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs, run_up_lengths
+from .choice import LONGEST, RESULTS, RUN_UPS, STEP, CampbellMargin, Requirements, most_further_runs, run_up_lengths
 
 
 @declared_by(CampbellMargin)
@@ -158,11 +158,10 @@ class Judged:
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The list of what lies in the operating range, and the verdict, where there are requirements."""
-    once: paths.Wildcards = [{}] if operating_range(sweep.settings) else []
-    judged = sweep.settings.section(SECTION).requirements().any
+    """The verdict and its further runs, where there are requirements."""
+    judged: paths.Wildcards = [{}] if sweep.settings.section(SECTION).requirements().any else []
     looked: paths.Wildcards = [{}] if Judged(sweep).looked else []
-    return {VERDICT: once if judged else [], ALL_LOOKS: looked, "<results>/operating.csv": once}
+    return {VERDICT: judged, ALL_LOOKS: looked}
 
 
 def can_be_judged(settings: Settings) -> None:
@@ -173,6 +172,11 @@ def can_be_judged(settings: Settings) -> None:
     operating = operating_range(settings)
     if operating is None:
         raise document.refusal("requirements without operating", "operating: with idle and redline beside them", "requirements")
+    for rate, length in run_up_lengths(operating).items():
+        if not RUN_UPS[0] / 10 <= length <= 10 * RUN_UPS[-1]:
+            long = f"a rate of {rate:g} rad/s2, over {length:.3g} revolutions"
+            allowed = f"rates over {RUN_UPS[0] // 10} to {10 * RUN_UPS[-1]} revolutions of the judged range"
+            raise document.refusal(long, allowed, "operating")
     modes = mode_names(settings.config.campbell.modes)
     asked: set[tuple[str, int]] = set()
     for number, margin in enumerate(requirements.campbell_margins):

@@ -1,4 +1,4 @@
-"""The steps of requirements: further runs, what lies in the operating range, and the verdict."""
+"""The steps of requirements: further runs, and the verdict."""
 
 from contextlib import nullcontext
 from dataclasses import replace
@@ -30,7 +30,7 @@ from .choice import Requirements
 from .evidence import Evidence, judged_part
 from .judging import REST
 from .looks import JudgedBlade, joined_looks, looks_in, looks_of
-from .table import operating_table, verdict_table
+from .table import verdict_table
 
 
 def look(input: Any, output: Any, params: Any) -> None:
@@ -93,15 +93,3 @@ def judge(input: Any, output: Any, params: Any) -> None:
         pair: fields["looks"].get(REST, xr.Dataset()).drop_vars("followed", errors="ignore") for pair, fields in known.items()
     }
     join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", {}, nullcontext)
-
-
-def list_operating(input: Any, output: Any, params: Any) -> None:
-    """List what lies in the operating range. Inputs: datasets by kind, summary. Output: table (csv).
-
-    Params: pairs, operating.
-    """
-    files = dict(input.items())
-    interactions = read_table(files.pop("summary"))
-    datasets = {kind: read_dataset(file) for kind, file in files.items()}
-    table = operating_table(params.pairs, from_plain(OperatingRange, params.operating), datasets, interactions)
-    write_table(table, output.table, digits=6)

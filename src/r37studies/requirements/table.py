@@ -1,8 +1,7 @@
-"""verdict.csv and operating.csv: what each blade keeps in operation, and what lies inside the operating range."""
+"""verdict.csv: what each blade keeps in operation."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
-from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +9,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.base.io import read_json
-from r37core.results.closing import counted, interaction_title
-from r37core.results.danger import ranges_of
-from r37core.results.datasets import response_in_operation, response_of
-from r37core.results.exceedance import exceedance_of
+from r37core.results.closing import counted
+from r37core.results.datasets import response_of
 from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table
 
@@ -29,27 +25,10 @@ from .judging import (
     REST,
     UNKNOWN,
     VERDICTS,
-    distance_from_operation,
     fails_clearly,
     judge,
     members_that_meet,
 )
-
-CROSSING, INTERACTION, ABOVE_YIELD, EVER_ABOVE = "crossing", "interaction", "above_yield", "ever_above_yield"
-"""Kinds of what lies in the operating range."""
-
-OPERATING_COLUMNS = (
-    "blade",
-    "scene",
-    "kind",
-    "what",
-    "from_rad_s",
-    "to_rad_s",
-    "length_rad_s",
-    "time_share",
-    "distance_percent",
-)
-"""Columns of operating.csv."""
 
 
 def verdict_table(
@@ -88,45 +67,6 @@ def _part(dataset: xr.Dataset | None, blade: str, scene: str) -> xr.Dataset | No
     if dataset is None or blade not in dataset["blade"].values or scene not in dataset["scene"].values:
         return None
     return dataset.sel(blade=blade, scene=scene)
-
-
-def operating_table(
-    pairs: Sequence[tuple[str, str]], operating: OperatingRange, datasets: Mapping[str, xr.Dataset], interactions: pd.DataFrame
-) -> pd.DataFrame:
-    """List what lies in the operating range: crossings of each blade, interactions and speeds above yield of the `pairs`.
-
-    OPERATING_COLUMNS; `time_share`: of the operating time that is spent at these speeds. `distance_percent`: of a crossing from
-    the nearest dwell, 0 without dwells. `interactions`: summary.csv, of whose rows the peak counts.
-    """
-    rows: list[tuple[object, ...]] = []
-    for blade in dict.fromkeys(blade for blade, _ in pairs):
-        crossings = datasets["campbell"]["crossing_speed"].sel(blade=blade, drop=True).to_series()
-        for (mode, order), speed in crossings[crossings.between(operating.first, operating.last)].items():
-            distance = 100.0 * distance_from_operation(speed, operating)
-            rows.append((blade, "", CROSSING, f"{mode}/{order}", speed, speed, 0.0, 0.0, distance))
-    for blade, scene in pairs:
-        peaks = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
-        for row in peaks.itertuples():
-            # where some revolutions are above yield, or else at the peak alone
-            begin = getattr(row, "some_revolutions_from_rad_s", np.nan)
-            begin, end = 2 * (row.peak_speed_rad_s,) if pd.isna(begin) else (begin, row.some_revolutions_to_rad_s)
-            if operating.overlap(begin, end) >= 0.0:
-                title = interaction_title(row.mode, row.engine_order)
-                rows.append((blade, scene, INTERACTION, title, *_inside(begin, end, operating), np.nan))
-        response = response_in_operation(datasets, blade, scene)
-        if "share_of_revolutions_above_yield" not in response:
-            continue
-        most, _, ever = ranges_of(response, exceedance_of(response)).values()
-        for kind, part in [*product([ABOVE_YIELD], most), *product([EVER_ABOVE], ever)]:
-            if operating.overlap(part.begin, part.end) > 0.0:
-                rows.append((blade, scene, kind, "", *_inside(part.begin, part.end, operating), np.nan))
-    return pd.DataFrame(rows, columns=list(OPERATING_COLUMNS))
-
-
-def _inside(begin: float, end: float, operating: OperatingRange) -> tuple[float, float, float, float]:
-    """Begin, end and length (rad/s) of the part of a range that lies in operation, and its share of the operating time."""
-    begin, end = max(begin, operating.first), min(end, operating.last)
-    return begin, end, end - begin, operating.time_share(begin, end) if end > begin else 0.0
 
 
 def overall(verdict: pd.DataFrame) -> pd.DataFrame:
@@ -190,12 +130,7 @@ _MOST_LINES = 8
 
 
 def closing(results: Path) -> str:
-    """The verdict of each blade and scene; of many how many meet all, and which; without a verdict what lies in operation."""
-    # the verdict of a run before the last one says nothing of it
-    file = results / "configuration.json"
-    requirements = read_json(file)["config"].get("requirements", {}) if file.exists() else {"verdict": "asked for alone"}
-    if all(value in (None, []) for value in requirements.values()):
-        return counted(len(read_table(results / "operating.csv")), "line") + " on what lies in operation"
+    """The verdict of each blade and scene; of many how many meet all, and which."""
     table = read_table(results / "verdict.csv")
     judged = overall(table)
     if len(judged) <= _MOST_LINES:

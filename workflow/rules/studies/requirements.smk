@@ -1,4 +1,4 @@
-# Requirements in operation: what lies in the operating range, further runs, and the verdict on each blade and scene.
+# Requirements in operation: further runs, and the verdict on each blade and scene.
 from r37studies.requirements.plan import ALL_LOOKS, LOOKS, VERDICT, Judged
 
 judged = Judged(sweep)
@@ -41,19 +41,3 @@ use rule step as verdict with:
         requirements=judged.requirements,
         operating=operating,
         densities=judged.densities,
-
-
-use rule step as operating with:
-    input:
-        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
-        **further_runs,
-        campbell=rules.campbell_of_all.output[0],
-        summary=rules.summary.output[0],
-    output:
-        table="<results>/operating.csv",
-    log:
-        "<logs>/operating.log",
-    params:
-        **step("r37studies.requirements.steps.list_operating"),
-        pairs=sweep.runs_with("rms"),
-        operating=operating,
