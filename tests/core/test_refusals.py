@@ -86,7 +86,7 @@ def test_runs_that_settle_are_of_single_blades_without_signals(config_copy):
     draft = {"fidelity": "draft", "scenes": ["abradable", "direct"]}
     edit(config_copy / "config/scenes.yaml", "\ndirect:\n", "\ndirect:\n  until: revolutions\n  revolutions: 300\n")
     settings = read_settings(config_copy, command_line_document(draft))
-    choices = {scene: settings.integration_choice("Ref", scene, 900.0) for scene in draft["scenes"]}
+    choices = {scene: settings.integration_choice("Ref", scene) for scene in draft["scenes"]}
     assert {scene: (choice.until_settled, choice.revolutions) for scene, choice in choices.items()} == {
         "abradable": (True, 200),
         "direct": (False, 300),

@@ -82,7 +82,7 @@ def _runs(models: Models, settings: Any, name: str, blade: str, lined: Any) -> I
             continue
         varied = with_friction(chosen.scene, case.friction, case.coefficient)
         for share, speed in zip(BARE_SPEEDS if is_bare else SHARES, BARE_SPEEDS if is_bare else lined, strict=True):
-            choice = settings.integration_choice(blade, scene, speed)
+            choice = settings.integration_choice(blade, scene)
             # of the step that the level has here
             run = numbers_of_run(models, speed, varied, replace(choice, time_step=case.step * choice.time_step))
             row = {"blade": blade, "case": name, "scene": "bare" if is_bare else "lining", "share": share, "speed": speed}

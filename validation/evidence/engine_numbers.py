@@ -53,7 +53,7 @@ def measured(root: Path) -> Numbers:
 
     def run(of: ContactModel, name: str, speed: float = _SPEED, results=(), stress=None, **changes) -> dict[str, float]:
         quiet = {"snapshot_revolutions": 2 if stress else 0, "revolutions": _REVOLUTIONS}
-        choice = replace(settings.integration_choice(_BLADE, name, speed), **quiet | changes)
+        choice = replace(settings.integration_choice(_BLADE, name), **quiet | changes)
         counts = {"spectrum_highest_order": 1, "wear_angles": 8, "stress": stress}
         return _of_run(run_speed(of, speed, settings.scenes[name].scene, choice, results, **counts))
 
@@ -68,7 +68,7 @@ def measured(root: Path) -> Numbers:
         "ring": run(contact, "elastic_abradable", results=["casing"]),
     }
     run_up = RunUp(1690.0, 1700.0, float(_REVOLUTIONS), 2, 2, False)
-    choice = replace(settings.integration_choice(_BLADE, "abradable", 1690.0), snapshot_revolutions=0)
+    choice = replace(settings.integration_choice(_BLADE, "abradable"), snapshot_revolutions=0)
     more = {"highest_order": 1, "stress": None, "yield_stress": np.inf}
     integration = RunUpIntegration(contact, settings.scenes["abradable"].scene, choice, run_up)
     numbers["run_up"] = _of_run(record_run_up(integration, (), **more))

@@ -70,7 +70,7 @@ class FreeBlade:
         boundary, scene = settings.boundary_choice(blade), settings.scenes["direct"].scene
         model = contact_model(reduced_model(mesh, settings, blade), boundary.tip_line)
         far = replace(scene, casing=replace(scene.casing, clearance=1.0, lobes=0), damping_ratio=0.0)
-        choice = replace(settings.integration_choice(blade, "direct", SPEED), time_step=time_step, until_settled=False)
+        choice = replace(settings.integration_choice(blade, "direct"), time_step=time_step, until_settled=False)
         choice = replace(choice, revolutions=1, samples_per_revolution=round(2.0 * np.pi / SPEED / 6.4e-6))
         self.simulation = Simulation(model, SPEED, far, choice)
         self._mesh, self._material = mesh, settings.blades[blade].material

@@ -41,7 +41,7 @@ def limits(input: Any, output: Any, params: Any) -> None:
         speeds = speeds_about_crossing(usual.contact, SHARES)
 
         def runs(models: Models, varied: Any = scene, step: float = 1.0, blade: str = blade, at: Any = speeds) -> list[Any]:
-            choices = [settings.integration_choice(blade, SCENE, speed) for speed in at]
+            choices = [settings.integration_choice(blade, SCENE) for speed in at]
             choices = [replace(choice, time_step=step * choice.time_step) for choice in choices]
             return [numbers_of_run(models, speed, varied, choice, "wear") for speed, choice in zip(at, choices, strict=True)]
 
@@ -88,7 +88,7 @@ def contact_lengths_of_blade(input: Any, output: Any, params: Any) -> None:
     for length in CONTACT_LENGTHS:
         other, above = replace(scene, lining=replace(scene.lining, contact_length=length)), 0
         for speed in np.arange(FIRST, LAST + 1.0, STEP):
-            run = numbers_of_run(models, float(speed), other, settings.integration_choice(params.blade, SCENE, float(speed)))
+            run = numbers_of_run(models, float(speed), other, settings.integration_choice(params.blade, SCENE))
             share = stress_statistic(run["revolution_von_mises"][0], limit)["share_of_revolutions_above_yield"]
             above += int(bool(run["status"]) or share > 0.5)
         row[f"{1e3 * length:.3g}"] = STEP * above

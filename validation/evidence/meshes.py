@@ -127,7 +127,7 @@ def _measured(settings: Settings, blade: str, mesh: BladeMesh) -> tuple[np.ndarr
     published = next(row.peak for row in INTERACTIONS if row.blade == blade and row.engine_order == 4)
     rms = {}
     for speed in SPEED_STEP * round(published / SPEED_STEP) + ABOUT:
-        choice = settings.integration_choice(blade, LINED, speed)
+        choice = settings.integration_choice(blade, LINED)
         few = {"spectrum_highest_order": 1, "wear_angles": 8}
         rms[speed] = run_speed(contact, float(speed), settings.scenes[LINED].scene, choice, (), **few)["rms_normal"][0]
     peak = max(rms, key=rms.__getitem__)

@@ -77,7 +77,7 @@ def history(settings: Settings, rom: str, response: xr.Dataset, speed: float) ->
     """Largest stress (Pa) of every revolution in the scene of a response, shape (revolutions,)."""
     scene = from_plain(Scene, json.loads(response.attrs["scene_parameters"]))
     model, blade = read_reduced_model(rom), response.attrs["blade"]
-    choice = settings.integration_choice(blade, LINED if scene.lining else DIRECT, speed)
+    choice = settings.integration_choice(blade, LINED if scene.lining else DIRECT)
     run = run_speed(
         contact_model(model, Path(rom).stem.removeprefix("rom_")),
         speed,

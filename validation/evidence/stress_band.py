@@ -68,7 +68,7 @@ def table_and_picture(input: Any, output: Any, params: Any) -> None:
     curves: dict[str, dict[str, np.ndarray]] = {}
     for place in PLACES:
         limit = settings.blades[place.blade].material.yield_stress
-        usual = settings.integration_choice(place.blade, place.scene, place.speed)
+        usual = settings.integration_choice(place.blade, place.scene)
         for case, scene, share in cases_of(settings.scenes[place.scene].scene, ring):
             choice = replace(usual, time_step=share * usual.time_step)
             run = numbers_of_run(models[place.blade], place.speed, scene, choice)

@@ -211,17 +211,16 @@ class Settings:
         assumed = not chosen.has_profiles and chosen.strengths.are_known and "stress" in wanted and "fatigue" not in wanted
         return (*wanted, "fatigue") if assumed else wanted
 
-    def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
-        """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
+    def integration_choice(self, blade: str, scene: str) -> IntegrationChoice:
+        """Numbers of the time integration of a blade in a scene, with only what its results need."""
         chosen = self.scenes[scene]
         everything = self.fidelity.time_integration.choice(chosen.scene)
         stress = "stress" in self.results_of(blade, scene)
-        history = speed in chosen.stress_history_speeds
         choice = replace(everything, revolutions=chosen.revolutions, until_settled=chosen.until_settled)
         return replace(
             choice,
             snapshots_per_revolution=choice.snapshots_per_revolution if stress else 0,
-            snapshot_revolutions=(choice.revolutions if history else choice.revolutions_in_statistic) if stress else 0,
+            snapshot_revolutions=choice.revolutions if stress else 0,
         )
 
 

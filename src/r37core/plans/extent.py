@@ -95,7 +95,7 @@ def fixed_seconds(settings: Settings, extent: Extent) -> float:
 def simulation_seconds(settings: Settings, pair: Pair) -> float:
     """CPU time (s) of a simulation of the sweep of a blade and scene, mean over its speeds."""
     blade, scene = pair
-    speeds, choice = settings.speed_plans[pair].certain, settings.integration_choice(blade, scene, 0.0)
+    speeds, choice = settings.speed_plans[pair].certain, settings.integration_choice(blade, scene)
     revolutions = choice.revolutions * (_SETTLED if choice.until_settled else 1.0)
     run = length_of_run(settings, scene, harmonic_mean(speeds), revolutions)
     return _SIMULATION_S + run.steps * _STEP_S[settings.contact_of(blade)] + revolutions * run.blades * _REVOLUTION_S

@@ -138,14 +138,13 @@ class Sweep(Structure):
     def task(self, wildcards: Any) -> str:
         """Parameters of one simulation, as JSON text."""
         results = tuple(result for result in self.results(wildcards) if result in OF_RUNS)
-        choice = self.settings.integration_choice(wildcards.blade, wildcards.scene, float(wildcards.speed))
+        choice = self.settings.integration_choice(wildcards.blade, wildcards.scene)
         kept = tuple(self.settings.fidelity.time_integration.kept.items())
         return _task(self.settings.scenes[wildcards.scene].scene, choice, results, kept)
 
     def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
-        """Numbers of the time integration at the highest speed of the basis."""
-        highest = self.settings.structure.maximum_speed_rad_s
-        return to_plain(self.settings.integration_choice(wildcards.blade, wildcards.scene, highest))
+        """Numbers of the time integration."""
+        return to_plain(self.settings.integration_choice(wildcards.blade, wildcards.scene))
 
     def plain_scene(self, wildcards: Any) -> dict[str, Any]:
         """The scene: what the blade meets."""

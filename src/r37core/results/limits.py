@@ -1,9 +1,12 @@
-"""Limits of the model, and why runs are beyond them. Light: Snakemake's start imports it."""
+"""Limits of the model, why runs are beyond them, and from which revolution on. Light: Snakemake's start imports it."""
 
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+
+from r37core.time_integration.integration_choice import HEATED
+from r37core.time_integration.status import Outcome
 
 _MOTION, _PAGE = "peak_share_of_height", "(docs/large_motion.md#limits)"
 _FED = "; with a smaller time step it may diverge, and a smaller friction.coefficient shows whether friction feeds it"
@@ -21,9 +24,46 @@ _LIMITS: dict[str, tuple[str | float, str]] = {
         0.0,
         "only the bound on the elastic energy ends the growth of the motion, in up to {:.2g} of the steps" + _FED,
     ),
-    "friction_power": ("melting_power", "friction takes up to {:.3g} W; from {:.3g} W on a tenth of it melts the tip in 1 s"),
+    "friction_power": (
+        "melting_power",
+        "friction takes up to {:.3g} W over 20 revolutions; from {:.3g} W on its share of the tip melts it in 1 s",
+    ),
+    "friction_heat": (
+        "melting_power",
+        "friction makes up to {:.3g} J of heat; from {:.3g} J on its share of the tip has melted it, if none flows off",
+    ),
 }
 """Variable of the runs -> its limit, with displacements of second order, or the variable that has it; the reason in words."""
+
+
+
+class Cause(Outcome):
+    """Limit that a run leaves first."""
+
+    NONE = 0
+    HEIGHT = 1
+    FORCE = 2
+    HEAT = 3
+    ENERGY = 4
+
+
+CAUSES = {
+    _MOTION: Cause.HEIGHT,
+    "largest_normal_force": Cause.FORCE,
+    "energy_residual_share": Cause.ENERGY,
+    "bounded_share_of_time": Cause.ENERGY,
+    "friction_power": Cause.HEAT,
+    "friction_heat": Cause.HEAT,
+}
+"""Variable that a limit is of -> its cause in a word."""
+
+_SO_FAR = {
+    _MOTION: "revolution_share_of_height",
+    "largest_normal_force": "force_so_far",
+    "bounded_share_of_time": "bounded_so_far",
+    "friction_heat": "heat_so_far",
+}
+"""Variable of a run -> array of its file with what it is in, or until the end of, each revolution."""
 
 OF_LIMITS = (*_LIMITS, *(limit for limit, _ in _LIMITS.values() if isinstance(limit, str)))
 """Variables that the limits are of."""
@@ -53,3 +93,32 @@ def reasons_beyond_limits(runs: Mapping[Any, Any]) -> list[str]:
             furthest = np.where(beyond, values, -np.inf).argmax()
             reasons.append(text.format(values.flat[furthest], limits.flat[furthest]))
     return reasons
+
+
+def first_revolutions_beyond(run: Mapping[str, np.ndarray]) -> dict[Cause, float]:
+    """First revolution beyond each limit, by cause; infinite where there is none. `run`: arrays of its file.
+
+    Energy that is unaccounted for is so from the first revolution on, and so is every limit of a run without what it was in each
+    revolution. A mean power begins with its first revolution.
+    """
+    firsts = dict.fromkeys(list(Cause)[1:], np.inf)
+    for name, cause in CAUSES.items():
+        _, limit, beyond = _excess(run, name)
+        if not beyond.any():
+            continue
+        first = 1.0
+        if name == "friction_power" and "heat_so_far" in run:
+            first = _first_hot_revolution(run["heat_so_far"], float(limit) * 2.0 * np.pi / float(run["speed"]))
+        elif _SO_FAR.get(name) in run:
+            above = run[_SO_FAR[name]] > limit
+            first = float(above.argmax()) + 1.0 if above.any() else 1.0
+        firsts[cause] = min(firsts[cause], first)
+    return firsts
+
+
+def _first_hot_revolution(heat: np.ndarray, most: float) -> float:
+    """First revolution of the first HEATED ones that make more than `most` heat (J) a revolution."""
+    made = np.concatenate([[0.0], heat[np.isfinite(heat)]])
+    window = max(min(HEATED, len(made) - 1), 1)
+    hot = made[window:] - made[:-window] >= window * most
+    return float(hot.argmax()) + 1.0

@@ -11,8 +11,7 @@ from r37core.stress.statistic import UNKNOWN, Strengths, goodman_statistic, stre
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.speed_file import read_speed, sizes_of
 
-from .limits import beyond_limits
-from .measures import first_yield
+from .events import exit_of, goodman_events, yield_events
 from .variables import AXES, COUNTED, HISTORIES, OF_ALL_SPEEDS, VARIABLES
 
 
@@ -40,7 +39,6 @@ def write_response(
     values: dict[str, Any] = last | {name: np.stack([row[name] for row in rows]) for name in rows[0]} | {"speed": speeds}
     if histories:
         values |= {"history_speed": [*histories], "max_von_mises_history": np.stack([*histories.values()])}
-        values["first_yield_revolution"] = [[first_yield(part, yield_stress) for part in each] for each in histories.values()]
     labels = {"tip_point": list(TIP_POINTS)} | ({"region": values["region"]} if "region" in values else {})
     response = dataset_of(VARIABLES, values, AXES, labels, ("speed",))
     write_dataset(response.merge(dataset_of(OF_ALL_SPEEDS | HISTORIES, values, {}, {})), file, provenance)
@@ -50,7 +48,7 @@ def write_response(
 def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Strengths) -> dict[str, np.ndarray]:
     """The variables of one speed, and the coordinates that they need."""
     sizes = sizes_of(run)
-    values = {**run, "beyond_limits": beyond_limits(run)}
+    values = {**run, **exit_of(run)}
     values |= {name: np.arange(1, sizes[name] + 1) for name in COUNTED if name in sizes}
     if "wear" in run:
         values["angle"] = np.arange(sizes["angle"]) * 2.0 * np.pi / sizes["angle"]
@@ -58,17 +56,20 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
     if "max_von_mises_last_revolution" in run:
         values["yield_stress"] = np.array(yield_stress)
     if "revolution_von_mises" in run:
-        values |= stress_statistic(in_statistic(run, "revolution_von_mises"), yield_stress)
-        # histories of all revolutions are in single precision
-        values["max_von_mises_ever"] = np.maximum(values["max_von_mises_ever"], run["max_von_mises_last_revolution"])
+        history = run["revolution_von_mises"]
+        values |= stress_statistic(in_statistic(run, history), yield_stress)
+        values["max_von_mises_ever"] = np.where(run["status"], np.nan, np.fmax.reduce(history, axis=1))
+        values |= yield_events(run, yield_stress, values["exit_revolution"])
     if "alternating_stress" in run:
         values |= goodman_statistic(run, strengths)
+        if strengths.are_known:
+            values |= goodman_events(run, strengths, values["exit_revolution"])
     return values
 
 
-def in_statistic(run: Mapping[str, np.ndarray], name: str) -> np.ndarray:
-    """A history of a run by its `name`, shape (rows, revolutions), over the revolutions in the statistic alone."""
-    history, revolutions, end = run[name], len(run["revolution_maximum"]), int(run["statistic_end"])
+def in_statistic(run: Mapping[str, np.ndarray], history: np.ndarray) -> np.ndarray:
+    """A history of a run, shape (rows, revolutions), over the revolutions in the statistic alone."""
+    revolutions, end = len(run["revolution_maximum"]), int(run["statistic_end"])
     # a history of all revolutions has them in place, a shorter one is that of the last
     last = history[:, :end] if history.shape[1] == revolutions else history
     return last[:, -int(run["statistic_revolutions"]) :]

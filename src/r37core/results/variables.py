@@ -7,18 +7,20 @@ from r37core.base.dataset_file import SPEED, Variable
 from r37core.stress.statistic import HIGH
 from r37core.time_integration import speed_arrays as of_run
 
+from .events import OF_EXIT, OF_GOODMAN, OF_YIELD
+
 _REGION = ("region",)
 _OF_REVOLUTIONS = "largest von Mises stress of each of the later revolutions"
 
 _MOTION = (
-    of_run.SIZES | {"beyond_limits": Variable((), "1", "1 where the run is beyond the model's limits", "f4")} | of_run.MOTION
+    of_run.SIZES | OF_EXIT | of_run.MOTION
 )
 
 _STRESS = {
     **of_run.LAST_STRESS,
-    "max_von_mises_ever": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: largest"),
+    "max_von_mises_ever": Variable(_REGION, "Pa", "largest von Mises stress in the region in any revolution"),
+    **OF_YIELD,
     "stress_drift": Variable(_REGION, "1", "share by which the stress still drifts as the longest run ends"),
-    "max_von_mises_of_run": Variable(_REGION, "Pa", "largest von Mises stress in the region in any revolution"),
     "max_von_mises_median": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: median"),
     "max_von_mises_high": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),
     **of_run.PLACE_OF_STRESS,
@@ -28,7 +30,8 @@ _STRESS = {
 }
 
 _GOODMAN = {
-    "goodman_share": Variable(_REGION, "1", "share of the Goodman line: largest of all nodes and later revolutions"),
+    "goodman_share": Variable(_REGION, "1", "share of the Goodman line: largest of all nodes and revolutions"),
+    **OF_GOODMAN,
     "goodman_share_median": Variable(_REGION, "1", "median of the largest share of the Goodman line in each later revolution"),
     "share_of_revolutions_above_goodman": Variable(
         _REGION, "1", "share of the later revolutions with a node above the Goodman line"
@@ -57,7 +60,6 @@ HISTORIES = {
     "max_von_mises_history": Variable(
         ("history_speed", "region", "revolution"), "Pa", "largest von Mises stress of each revolution", "f4"
     ),
-    "first_yield_revolution": Variable(("history_speed", "region"), "1", "first revolution whose largest stress exceeds yield"),
 }
 """Variables of the speeds with a stress history."""
 

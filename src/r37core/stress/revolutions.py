@@ -102,17 +102,17 @@ def _blockwise(function: Callable[[np.ndarray], np.ndarray], columns: np.ndarray
 
 
 def stress_cycles(
-    stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray, per_revolution: int
+    stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray, per_revolution: int, later: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Alternating stress (Pa), shape (revolutions, nodes), and mean stress (Pa), shape (nodes,); arguments as above.
 
-    Alternating: largest von Mises stress of the tensor less its mean over time, in each revolution. With the mean it does not
+    Alternating: largest von Mises stress of the tensor less its mean over the `later` revolutions, in each revolution. With the mean it does not
     depend on the axes, and is at least the radius of the smallest sphere about the path of the tensor: of a wave whose halves
     differ it is more than half of the range. Mean: sum of the mean normal stresses, negative in compression. All nodes at all
     instants, in single precision: stress is linear, so the mean is that of the states, and rotation changes it alone.
     """
     states, shapes = stress.band_part(states, shapes)
-    mean_state = states.mean(axis=0)
+    mean_state = states[-later * per_revolution :].mean(axis=0)
     parts = stress.deviatoric[:, :, : len(shapes)] @ shapes.astype(np.float32)
     vibration = (states - mean_state).astype(np.float32)
 

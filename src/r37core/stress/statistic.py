@@ -3,7 +3,7 @@
 Apart from what simulations import: a changed statistic runs none of them again.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import inf, isfinite
 from typing import Any
@@ -65,25 +65,43 @@ UNKNOWN = Strengths()
 def goodman_statistic(run: Mapping[str, np.ndarray], strengths: Strengths) -> dict[str, np.ndarray]:
     """Numbers of a run, as fatigue_numbers has them, against its material's `strengths`, which are among them.
 
-    Of each region the largest share of all nodes and revolutions, with its two stresses (Pa), median of the largest of each
-    revolution, and the share of revolutions with a node above the line. NaN of a diverged run, and without strengths.
+    Of each region the largest share of all nodes and revolutions, with its two stresses (Pa); of the later revolutions the
+    median of the largest of each, and the share of those with a node above the line. NaN of a diverged run, and without
+    strengths.
     """
-    ends = np.cumsum(run["cycle_counts"].sum(axis=1))[:-1]
-    regions = zip(np.split(run["cycle_alternating"], ends), np.split(run["cycle_mean"], ends), run["cycle_counts"], strict=True)
-    rows = [_goodman(*of_region, strengths) for of_region in regions]
+    later = int(run["statistic_revolutions"])
+    rows = [_goodman(alternating, mean, counts, strengths, later) for alternating, mean, counts in _cycles_of_regions(run)]
     names = ["goodman_share", "goodman_share_median", "share_of_revolutions_above_goodman"]
     names += ["goodman_alternating_stress", "goodman_mean_stress"]
     limits = {name: np.array(getattr(strengths, name)) for name in ("fatigue_strength", "ultimate_strength")}
     return limits | dict(zip(names, np.array(rows, dtype=float).T, strict=True))
 
 
-def _goodman(alternating: np.ndarray, mean: np.ndarray, counts: np.ndarray, strengths: Strengths) -> tuple[Any, ...]:
-    """Numbers of one region."""
+def goodman_history(run: Mapping[str, np.ndarray], strengths: Strengths) -> np.ndarray:
+    """Largest share of the Goodman line of all nodes in each revolution, shape (regions, revolutions); none if it diverged."""
+    return np.stack([_largest_shares(strengths.share(*pair), counts) for *pair, counts in _cycles_of_regions(run)])
+
+
+def _cycles_of_regions(run: Mapping[str, np.ndarray]) -> Iterator[tuple[np.ndarray, ...]]:
+    """Alternating and mean stress (Pa) of the largest cycles of each region, and their number in each revolution."""
+    ends = np.cumsum(run["cycle_counts"].sum(axis=1))[:-1]
+    return zip(np.split(run["cycle_alternating"], ends), np.split(run["cycle_mean"], ends), run["cycle_counts"], strict=True)
+
+
+def _largest_shares(share: np.ndarray, counts: np.ndarray) -> np.ndarray:
+    """The largest of the shares of each revolution, which has so many of them."""
+    return np.maximum.reduceat(share, np.cumsum(counts) - counts) if len(share) else share
+
+
+def _goodman(
+    alternating: np.ndarray, mean: np.ndarray, counts: np.ndarray, strengths: Strengths, later: int
+) -> tuple[Any, ...]:
+    """Numbers of one region, medians and shares over so many later revolutions."""
     share = strengths.share(alternating, mean)
     if not len(share) or not np.isfinite(share).all():
         return 5 * (np.nan,)
-    largest, worst = np.maximum.reduceat(share, np.cumsum(counts) - counts), share.argmax()
-    return share[worst], np.median(largest), np.mean(largest > 1.0), alternating[worst], mean[worst]
+    last, worst = _largest_shares(share, counts)[-later:], share.argmax()
+    return share[worst], np.median(last), np.mean(last > 1.0), alternating[worst], mean[worst]
 
 
 def stress_statistic(of_revolutions: np.ndarray, yield_stress: float) -> dict[str, np.ndarray]:

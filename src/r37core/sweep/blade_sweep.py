@@ -8,7 +8,7 @@ from typing import Any
 from r37core.adaptive.refinement_choice import RefinementChoice
 from r37core.base.io import Named
 from r37core.base.plain import from_plain
-from r37core.base.speeds import SpeedPlan, exact_text
+from r37core.base.speeds import SpeedPlan
 from r37core.config import Settings
 from r37core.plans.sweep_plan import Sweep
 from r37core.stress.statistic import Strengths
@@ -24,8 +24,8 @@ class BladeSweep:
     """Sweep of a blade in a scene.
 
     `existing`: stage of the structure -> its file that is there; `recipes`: of the others. `models`: stages that simulations
-    start from, that of contact first. `task`, as JSON, of a simulation, and at the `history_speeds` (rad/s) `history_task`.
-    `yield_stress` (Pa), `strengths`: of the blade.
+    start from, that of contact first. `task`, as JSON, of a simulation; `history_speeds` (rad/s): of those whose stresses of
+    every revolution are kept. `yield_stress` (Pa), `strengths`: of the blade.
     """
 
     existing: Mapping[str, str]
@@ -33,7 +33,6 @@ class BladeSweep:
     models: tuple[str, ...]
     task: str
     history_speeds: tuple[float, ...]
-    history_task: str
     yield_stress: float
     strengths: Strengths
 
@@ -41,10 +40,6 @@ class BladeSweep:
         """File of a stage of the structure, made in the folder where it is not there. Raises what making it raises."""
         existing = self.existing.get(stage)
         return Path(existing) if existing else self.recipes[stage].file(folder, attributes)
-
-    def task_at(self, speed: float) -> str:
-        """Task of the simulation at a speed (rad/s)."""
-        return self.history_task if speed in self.history_speeds else self.task
 
 
 @dataclass(frozen=True)
@@ -63,18 +58,12 @@ def blade_sweep(
     tip_line = settings.scenes[scene].tip_line
     models = ("contact_model", *(["stress_operator"] if "stress" in sweep.results(run) else []))
     lines = {**dict.fromkeys(models, tip_line), CAMPBELL: None}
-    history = sweep.stress_history_speeds(run)
-
-    def task(speed: float) -> str:
-        return sweep.task(Named(**vars(run), speed=exact_text(speed)))
-
     return BladeSweep(
         existing=there,
         recipes=recipes(settings, blade, {stage: line for stage, line in lines.items() if stage not in there}, kept=kept),
         models=models,
-        task=task(0.0),
-        history_speeds=history,
-        history_task=task(history[0]) if history else "",
+        task=sweep.task(run),
+        history_speeds=sweep.stress_history_speeds(run),
         yield_stress=sweep.yield_stress(run),
         strengths=from_plain(Strengths, sweep.strengths(run)),
     )

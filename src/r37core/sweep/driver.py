@@ -62,7 +62,7 @@ class Driver:
             """Files at some speeds (rad/s), those of one sweep after those of another; a process imports no more for one."""
             new = self.run_all(
                 [
-                    partial(simulated, self.folder / name, speed, sweep.task_at(speed), started, about[name], code, self.motion)
+                    partial(simulated, self.folder / name, speed, sweep.task, started, about[name], code, self.motion)
                     for (name, sweep), started in zip(sweeps.items(), models, strict=True)
                     for speed in asked
                 ],

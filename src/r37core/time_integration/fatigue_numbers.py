@@ -11,7 +11,7 @@ from .problem import Problem
 
 
 def fatigue_numbers(run: FinishedRun, stress: StressOperators, shown: int) -> dict[str, np.ndarray]:
-    """Alternating and mean stress (Pa) over the revolutions of the statistic; rotation is always in the mean.
+    """Alternating stress (Pa) of all revolutions, about the mean of those in the statistic; rotation is always in the mean.
 
     `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, in the region that
     decides, the former the largest of all revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), region by region, and
@@ -42,9 +42,8 @@ def fatigue_numbers(run: FinishedRun, stress: StressOperators, shown: int) -> di
 
 
 def _cycles(problem: Problem, snapshots: np.ndarray, stress: StressOperator) -> tuple[np.ndarray, np.ndarray]:
-    """Stress of one blade in the revolutions of the statistic, the last of its snapshots."""
+    """Stress of one blade in all revolutions with snapshots, of which the last ones are those of the statistic."""
     choice, model = problem.choice, problem.model
-    states = snapshots[-choice.revolutions_in_statistic * choice.snapshots_per_revolution :]
     shapes = model.to_reduced @ problem.contact.state_shapes
     rotation = rotation_amplitudes(model.rotation_stiffening, problem.speed)
-    return stress_cycles(stress, states, shapes, rotation, choice.snapshots_per_revolution)
+    return stress_cycles(stress, snapshots, shapes, rotation, choice.snapshots_per_revolution, choice.revolutions_in_statistic)

@@ -16,6 +16,12 @@ MOST_STEPS = 10**9
 STEPS_AT_ONCE = 1_000_000
 """Steps in one compiled call, at least a revolution. An interrupt is seen between two calls, within a second."""
 
+MARKED = 10
+"""Revolutions from one mark of a run's totals to the next: how closely it is known when a run leaves the model's limits."""
+
+HEATED = 20
+"""Revolutions over which the power of the friction is a mean."""
+
 SECONDS_PER_STEP = 1e-7
 """CPU time (s) of a step of a blade with eight contact nodes, which was 70 to 100 ns at any speed and level."""
 
@@ -84,5 +90,5 @@ class IntegrationChoice:
 
     @property
     def recorded(self) -> Self:
-        """The choice with snapshots of all revolutions in its statistic, if it has snapshots."""
-        return replace(self, snapshot_revolutions=self.revolutions_in_statistic if self.snapshots_per_revolution else 0)
+        """The choice with snapshots of all revolutions, if it has snapshots."""
+        return replace(self, snapshot_revolutions=self.revolutions if self.snapshots_per_revolution else 0)

@@ -14,10 +14,11 @@ from r37core.stress.operator import StressOperators, judged_operator
 from r37core.stress.revolutions import largest_of_revolutions
 
 from .finished_run import FinishedRun
+from .integration_choice import HEATED
 from .problem import Problem
 from .simulate import DIRECTIONS, LEADING_EDGE
 from .speed_arrays import PLACE_OF_STRESS, SPECTRUM
-from .state import SimulationRecord
+from .state import TOTALS, SimulationRecord
 from .status import RunStatus
 
 _WEAR_LOBES = 20
@@ -90,7 +91,7 @@ def snapshot_numbers(
 def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: bool) -> tuple[np.ndarray, np.ndarray]:
     """Largest stress (Pa) of each blade in each revolution with snapshots, NaN where it ended, and its node in the operator.
 
-    Both by region, shape (regions, blades, revolutions). Blades with as many stepped modes are looked at together: their modes
+    Both by region, shape (regions, blades, revolutions); of regions that do not decide in those of the statistic. Blades with as many stepped modes are looked at together: their modes
     have the same shapes, and what follows a force at once is in proportion to the flexibility, 1/factor^2 for a factor of the
     frequencies.
     """
@@ -100,7 +101,7 @@ def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: b
     rotation = rotation_amplitudes(model.rotation_stiffening, speed) if static_stress else np.empty(0)
     history = np.full((len(stress), len(records), choice.snapshot_revolutions), np.nan, dtype=np.float32)
     nodes = np.zeros(history.shape, dtype=int)
-    groups: dict[tuple[int, int], list[int]] = {}
+    judged, groups = judged_operator(stress), dict[tuple[int, int], list[int]]()
     for place, record in enumerate(records):
         revolutions = len(record.snapshots) // per_revolution
         if revolutions:
@@ -115,9 +116,11 @@ def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: b
         shapes = model.to_reduced @ contact.state_shapes
         joined = states[0] if len(states) == 1 else np.concatenate(states)
         for region, operator in enumerate(stress.values()):
-            worst = largest_of_revolutions(operator, joined, shapes, rotation, per_revolution)
+            first = 0 if operator is judged else max(revolutions - choice.revolutions_in_statistic, 0)
+            looked_at = joined.reshape(len(places), instants, -1)[:, first * per_revolution :].reshape(-1, joined.shape[1])
+            worst = largest_of_revolutions(operator, looked_at, shapes, rotation, per_revolution)
             for kept, values in zip((history, nodes), worst, strict=True):
-                kept[region, places, :revolutions] = values.reshape(len(places), revolutions)
+                kept[region, places, first:revolutions] = values.reshape(len(places), revolutions - first)
     return history, nodes
 
 
@@ -219,8 +222,37 @@ def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, Any]:
     return {
         "energy_residual_share": residual / max(parts) if max(parts) else 0.0,
         "bounded_share_of_time": (totals["steps_bounded"] / np.maximum(totals["steps"], 1.0)).max(),
-        "friction_power": run.ending.friction_power,
         "melting_power": MELTING * run.problem.model.tip_lengths.sum(),
+        **_so_far(run),
+    }
+
+
+def _so_far(run: FinishedRun) -> dict[str, Any]:
+    """Force, heat and bounded steps from the start to the end of each revolution, of all blades the most; NaN after the end.
+
+    Between two marks of the totals the heat is a straight line, all else what it is at the later one. `friction_power`: the
+    largest mean over HEATED revolutions, or over a shorter run.
+    """
+    problem, shape = run.problem, (len(run.states), run.problem.choice.revolutions)
+    forces, heats, bounded = (np.full(shape, np.nan) for _ in range(3))
+    for blade, state in enumerate(run.states):
+        samples, totals = zip((0, np.zeros((), TOTALS)), *state.marks, (state.samples, state.totals), strict=True)
+        marks, values = np.array(samples) / problem.choice.samples_per_revolution, np.stack(totals)
+        done = np.arange(1, min(int(marks[-1]), shape[1]) + 1)
+        later = np.searchsorted(marks, done)
+        forces[blade, : len(done)] = values["largest_force"][later]
+        bounded[blade, : len(done)] = values["steps_bounded"][later]
+        heats[blade, : len(done)] = np.interp(done, marks, values["friction_heat"])
+    heat = np.fmax.reduce(heats)
+    known = np.concatenate([[0.0], heat[np.isfinite(heat)]])
+    window = min(HEATED, len(known) - 1)
+    powers = (known[window:] - known[: len(known) - window]) / (max(window, 1) * 2.0 * np.pi / problem.speed)
+    return {
+        "friction_power": powers.max(),
+        "friction_heat": known[-1],
+        "force_so_far": np.fmax.reduce(forces),
+        "heat_so_far": heat,
+        "bounded_so_far": np.fmax.reduce(bounded),
     }
 
 

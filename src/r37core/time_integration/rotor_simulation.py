@@ -72,13 +72,12 @@ class RotorSimulation:
         samples = revolutions * self.problem.choice.samples_per_revolution
         outs = [simulation.room(0, samples) for simulation in self.blades]
         done, worn, late = self.advance(states, outs)
-        heat = max(float(state.totals["friction_heat"]) for state in states)
         records = [blade.recorded(0, out, reached) for blade, out, reached in zip(self.blades, outs, done, strict=True)]
         return RotorRun(
             problems=[simulation.problem for simulation in self.blades],
             states=states,
             records=records,
-            ending=Ending(revolutions, friction_power=heat / self.problem.grid.duration),
+            ending=Ending(revolutions),
             initial_energy=energy,
             energy_change=self.energy(states) - energy,
             contact_work=sum(blade.work(state) for blade, state in zip(self.blades, states, strict=True)),

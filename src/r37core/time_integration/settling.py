@@ -51,14 +51,13 @@ class Ending:
     """End of a run: `revolutions` done, and whether it had `settled` then.
 
     `wear_growth` (m): largest growth of a bar's wear in the last window; `contact_steps`: steps with a contact force in it.
-    NaN where they are not known, as of a rotor. `friction_power` (W): mean over the statistic; a rotor's largest, over all.
+    NaN where they are not known, as of a rotor.
     """
 
     revolutions: int
     settled: bool = False
     wear_growth: float = np.nan
     contact_steps: float = np.nan
-    friction_power: float = np.nan
 
 
 def window_of(revolutions: int) -> int:

@@ -79,20 +79,16 @@ class Simulation:
         risen = max((risen, *problem.scene.casing.change_revolutions[-1:]))
         parts, out = parts_of_run(choice), self.room(0, choice.revolutions * per_revolution)
         done, settled, growth, steps, rms = 0, False, 0.0, 0.0, np.empty(0)
-        wear, contact, heats = state.wear.copy(), float(state.totals["steps_in_contact"]), {0: 0.0}
+        wear, contact = state.wear.copy(), float(state.totals["steps_in_contact"])
         for part in self.parts(state, [count * per_revolution for count in parts], out):
             done += len(part.samples)
             growth, steps = float(np.max(state.wear - wear, initial=0.0)), float(state.totals["steps_in_contact"]) - contact
             wear, contact = state.wear.copy(), contact + steps
-            heats[done] = float(state.totals["friction_heat"])
             if choice.until_settled and not part.diverged:
                 rms = np.concatenate([rms, revolution_rms(part.samples[:, LEADING_EDGE], per_revolution)])
                 settled = has_settled(rms, parts[-1], growth, risen)
             if settled:
                 break
-        later = max(done - choice.revolutions_in_statistic * per_revolution, 0)
-        heat = heats[done] - np.interp(later, list(heats), list(heats.values()))
-        power = heat / ((done - later) * problem.grid.steps_per_sample * problem.grid.time_step)
         record = self.recorded(0, out, done)
         if choice.until_settled:
             instants = choice.snapshots_per_revolution * choice.snapshot_revolutions
@@ -101,7 +97,7 @@ class Simulation:
             problems=[problem],
             states=[state],
             records=[record],
-            ending=Ending(state.samples // per_revolution, settled, growth, steps, float(power)),
+            ending=Ending(state.samples // per_revolution, settled, growth, steps),
             initial_energy=energy,
             energy_change=self.energy(state) - energy,
             contact_work=self.work(state),

@@ -17,7 +17,8 @@ from .status import MotionKind, RunStatus
 _number = partial(Variable, ())
 _TIP, _REGION, _BLADES = ("tip_point",), ("region",), ("blade_number",)
 _LEADING_EDGE = "the leading edge's displacement, normal and tangential together,"
-_HISTORY = "largest von Mises stress of each of the last revolutions, which have snapshots"
+_HISTORY = "largest von Mises stress of each revolution, as far as it has snapshots"
+_SO_FAR = ("revolution",)
 
 PLACES = {
     "chord": "0 at the leading, 1 at the trailing edge",
@@ -44,7 +45,8 @@ SIZES = {
 MOTION = {
     "bounded_share_of_time": _number("1", "share of the steps in which the bound on the elastic energy acts"),
     "energy_residual_share": _number("1", "size of the energy residual over the largest of work, loss and energy change"),
-    "friction_power": _number("W", "mean power of the friction over the later revolutions, of a rotor over all"),
+    "friction_power": _number("W", "largest mean power of the friction over 20 revolutions"),
+    "friction_heat": _number("J", "work of the friction over the whole run"),
     "melting_power": _number("W", "power of the friction of which a tenth melts the tip in a second"),
     "motion_at_end": _number("1", "state of the motion at the end of the run", "i1", MotionAtEnd),
     "settled_revolution": _number("1", "revolution after which the run ended as it had settled, NaN where it did not"),
@@ -158,6 +160,10 @@ _IN_FILE = {
     "diverged_time": _number("s", "time at which the run diverged"),
     "statistic_end": _number("1", "last of the later revolutions"),
     "statistic_revolutions": _number("1", "number of the later revolutions"),
+    "revolution_share_of_height": Variable(_SO_FAR, "1", "largest displacement of the tip in each revolution over the blade's height"),
+    "force_so_far": Variable(_SO_FAR, "N", "largest normal force on a tip node until the end of each revolution"),
+    "heat_so_far": Variable(_SO_FAR, "J", "work of the friction until the end of each revolution"),
+    "bounded_so_far": Variable(_SO_FAR, "1", "steps in which the bound on the elastic energy acts until the end of each revolution"),
     "revolution_rms": Variable(("done_revolution",), "m", f"rms of {_LEADING_EDGE} in each revolution until the end"),
     "region": Variable(_REGION, "1", "name of the region", "str"),
     "revolution_von_mises": Variable(("region", "recorded_revolution"), "Pa", _HISTORY),

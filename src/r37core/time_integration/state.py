@@ -31,7 +31,8 @@ class SimulationState:
     `touched`, shape (nodes,): whether a node touched the casing in the last step; `contact_force` (N), shape (3, nodes): what
     presses the nodes at t_n with exact_modal, along normal, tangent and meridian; in a lining `penetration` (m) of the nodes
     beyond its unworn surface at t_n, negative where they are clear, and `bar_position`, their angle in bars, shape (nodes,)
-    (which the compiled engine needs with the exact gap alone); `totals`: see TOTALS.
+    (which the compiled engine needs with the exact gap alone); `totals`: see TOTALS. `marks`: samples of the run and totals up
+    to there, every MARKED revolutions and where a part of the run ends.
     """
 
     displacement: np.ndarray
@@ -43,6 +44,7 @@ class SimulationState:
     bar_position: np.ndarray
     samples: int = 0
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
+    marks: list[tuple[int, np.ndarray]] = field(default_factory=list)
 
 
 class Schedule:

@@ -93,7 +93,7 @@ class Calibrated:
     def made_of(self, wildcards: Any) -> Any:
         """All that the designs follow from beside the files, as plain values."""
         scenes = [self.settings.scene_designs.entries[scene].model_dump() for _, scene in self.pairs]
-        choices = [to_plain(self.settings.integration_choice(*pair, 0.0)) for pair in self.pairs]
+        choices = [to_plain(self.settings.integration_choice(*pair)) for pair in self.pairs]
         spreads = {number.name: plain(spread) for number, spread in self.spreads.items()}
         measured = to_plain(self.settings.made(Measured).all)
         return [scenes, choices, measured, self.section.model_dump(), spreads, self.nominal]

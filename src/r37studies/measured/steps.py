@@ -111,7 +111,7 @@ def calibrate(input: Any, output: Any, params: Any) -> None:
     columns = {name: as_list(files) for name, files in input.items() if name != "prepared"}
     blades = {}
     for pair, *files in zip(measured.pairs, *columns.values(), strict=True):
-        choice, tip_line = settings.integration_choice(*pair, 0.0), settings.scenes[pair[1]].tip_line
+        choice, tip_line = settings.integration_choice(*pair), settings.scenes[pair[1]].tip_line
         named, own = Named(**dict(zip(columns, files, strict=True))), measured.pair_measurements(pair)
         blades[pair] = observed_blade(named, own, choice, tip_line, folder)
     every = {name: each for blade in blades.values() for name, each in blade.measurements.items()}

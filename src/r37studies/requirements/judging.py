@@ -314,8 +314,8 @@ def _trials(evidence: Evidence) -> list[Trial]:
     ]
     if "stress_drift" in runs and (runs["stress_drift"] > 0.0).any():
         trials.append(Trial("as it drifts on", evidence.scaled(1.0 + runs["stress_drift"].clip(min=0.0).fillna(0.0))))
-    if "max_von_mises_of_run" in runs:
-        share = runs["share_of_revolutions_above_yield"].where(~(runs["max_von_mises_of_run"] > runs["yield_stress"]), 1.0)
+    if "max_von_mises_ever" in runs:
+        share = runs["share_of_revolutions_above_yield"].where(~(runs["max_von_mises_ever"] > runs["yield_stress"]), 1.0)
         ever = runs.assign(share_of_revolutions_above_yield=share)
         trials.append(Trial("before it settles", evidence.replaced(ever)))
     motions = {name: motion for name, motion in looks.items() if name.startswith((UP, DOWN, RUN_UP, RUN_DOWN))}

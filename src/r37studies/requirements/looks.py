@@ -132,7 +132,6 @@ class JudgedBlade(BladeRuns):
         if "revolution_von_mises" in numbers:
             # NaN after the end of a run that settled
             history = np.nan_to_num(numbers["revolution_von_mises"])
-            row["max_von_mises_of_run"] = history.max(axis=1)
             ended = np.isfinite(numbers["settled_revolution"]) or not history[:, -1].all()
             row["stress_drift"] = np.array([0.0 if ended else remaining_drift(each, window_of(len(each))) for each in history])
         return row

@@ -117,7 +117,7 @@ class Judged:
         params = {
             "scene": self.sweep.plain_scene,
             # of a run from rest: those of the pipeline
-            "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
+            "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene)),
             "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in RESULTS],
             "kept": settings.fidelity.time_integration.kept,
             "material": lambda wildcards: to_plain(settings.blades[wildcards.blade].material),

@@ -78,7 +78,7 @@ def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarra
         stress = run["blade_revolution_von_mises"]
         row["blade_von_mises"], length = span_maxima(stress)
         row["stress_span"] = revolutions - stress.shape[1] + _ends(stress.shape[1], length)
-        judged = in_statistic(run, "blade_revolution_von_mises")
+        judged = in_statistic(run, run["blade_revolution_von_mises"])
         if run["status"] == RunStatus.DIVERGED:
             judged = np.full_like(judged, np.nan)
         statistic = stress_statistic(judged, yield_stress)

@@ -82,7 +82,7 @@ class RunUps:
 
     def integration_choice(self, blade: str, scene: str, name: str) -> IntegrationChoice:
         """Numbers of the time integration of a run-up: those of the sweep, with stress in every revolution."""
-        choice = self.sweep.settings.integration_choice(blade, scene, 0.0)
+        choice = self.sweep.settings.integration_choice(blade, scene)
         before = self.choices[blade, scene][name].before
         snapshot_revolutions = before if choice.snapshots_per_revolution else 0
         return replace(choice, revolutions=before, until_settled=False, snapshot_revolutions=snapshot_revolutions)

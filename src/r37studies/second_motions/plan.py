@@ -40,7 +40,7 @@ def parameters(sweep: Sweep) -> dict[str, Any]:
     return {
         "scene": sweep.plain_scene,
         # of a run from rest: those of the pipeline
-        "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
+        "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene)),
         # without any speed where there are none, as the rules are there all the same
         "sweep": to_plain(section.sweep()) if section.asked else None,
     }

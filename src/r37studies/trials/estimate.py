@@ -35,7 +35,7 @@ def cases(settings: Settings) -> dict[str, Case | str]:
             blade,
             chosen.tip_line,
             chosen.scene,
-            settings.integration_choice(blade, scene, 0.0),
+            settings.integration_choice(blade, scene),
             # each speed from the middle of the part that it stands for
             plan.certain[every // 2 :: every],
             results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),

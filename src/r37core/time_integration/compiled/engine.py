@@ -10,7 +10,7 @@ import numpy as np
 from r37core.machine_code.alignment import NUMBER_BYTES, address_of
 from r37core.machine_code.native import Sources, cached_object, load_function
 
-from ..integration_choice import revolutions_at_once
+from ..integration_choice import MARKED, revolutions_at_once
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
@@ -104,7 +104,7 @@ class Passage:
         m["call"]["ahead"] = (late - passed) * self._grid.steps_per_sample
 
     def blocks_at_once(self, blades: int) -> int:
-        """Blocks of one call in which so many blades go on: about STEPS_AT_ONCE up to the end of a revolution.
+        """Blocks of one call in which so many blades go on: about STEPS_AT_ONCE up to the end of a revolution, at most MARKED.
 
         A run may be stopped there with the same bits. With a schedule they are what that has.
         """
@@ -112,7 +112,7 @@ class Passage:
             return len(self._out.samples)
         grid, per_revolution = self._grid, self._grid.choice.samples_per_revolution
         since = (self._state.samples + self._passed + self.done) % per_revolution
-        return revolutions_at_once(blades * grid.steps_per_revolution) * per_revolution - since
+        return min(revolutions_at_once(blades * grid.steps_per_revolution), MARKED) * per_revolution - since
 
     def ask(self, blocks: int) -> None:
         """Have the record say that so many more are to be done."""
@@ -126,6 +126,11 @@ class Passage:
             call["snapshots"] = self._snapshots_at + kept * self._snapshots.strides[0]
         if self._in_parts:
             self._schedule.samples[0] = blocks
+
+    def go_on(self, blocks: int) -> None:
+        """Take so many more blocks as done, and mark the totals up to there."""
+        self.done += blocks
+        self._state.marks.append((self._state.samples + self.done, self.engine.record[0]["totals"].copy()))
 
     @property
     def worn(self) -> float:
@@ -170,7 +175,7 @@ def go_on(passages: Sequence[Passage], blocks: int) -> None:
             passage.ask(part)
         reached = engine.call(addresses)
         for passage in passages:
-            passage.done += reached
+            passage.go_on(reached)
         blocks -= reached
 
 
