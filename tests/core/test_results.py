@@ -21,7 +21,7 @@ from r37core.fem.stress import COMPONENTS, interpolated, recovered_stress, stres
 from r37core.results.datasets import response_of, write_sweep_dataset
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.results.interactions import find_interactions
-from r37core.results.ranking import length_most_revolutions, robustness
+from r37core.results.ranking import length_sustained, robustness
 from r37core.results.regions import judged, other_regions, read_judged
 from r37core.results.response import write_response
 from r37core.results.steps import ranking
@@ -499,7 +499,7 @@ def test_a_blade_without_a_region_has_nothing_there(datasets):
     odd = stress.sel(blade="Odd", scene="direct", region="box")
     assert odd["max_von_mises_median"].isnull().all() and odd["stress_region"].item() == ""
     assert other_regions(stress) == ["airfoil_unfiltered", "box"] and other_regions(judged(stress)) == []
-    assert np.isnan(length_most_revolutions(response_of(datasets, "Odd", "direct", "box")))
+    assert np.isnan(length_sustained(response_of(datasets, "Odd", "direct", "box")))
 
 
 def test_the_ranking_has_a_length_in_each_other_region(datasets, tmp_path):

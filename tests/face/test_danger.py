@@ -18,7 +18,7 @@ from r37core.figures.fatigue_map import draw_fatigue_map
 from r37core.figures.interaction_map import draw_interactions
 from r37core.figures.response_curves import draw_response
 from r37core.product.closing import closing_lines
-from r37core.results.columns import DANGER, above_yield, names
+from r37core.results.columns import DANGER, names
 from r37core.results.danger import danger_of
 from r37core.results.datasets import response_of
 from r37core.results.interactions import sized

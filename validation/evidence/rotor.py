@@ -10,7 +10,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
 from r37core.figures.style import plt
 from r37core.results.danger import danger_of, ranges_of
-from r37core.results.exceedance import SpeedRange, exceedance_of, length_of
+from r37core.results.exceedance import SpeedRange, length_of
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
 
@@ -52,7 +52,7 @@ def kinds(input: Any, output: Any, params: Any) -> None:
         drawn, crossing = {}, float(crossings.sel(blade=blade))
         for kind, words in KINDS.items():
             judged = read_judged(input[kind][place])
-            most, _, ever = ranges_of(judged, exceedance_of(judged)).values()
+            ever, _, most = ranges_of(judged).values()
             drawn[words] = {"ever above yield": ever, "in most revolutions": most}
             blades = at_once.get((blade, kind), int(bool(most)))
             where = ", ".join(f"{part.begin:.0f} to {part.end:.0f}" for part in most) or "-"

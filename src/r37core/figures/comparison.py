@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.results.columns import LENGTHS, names
 from r37core.results.datasets import with_further_runs
 from r37core.rom.reduction_choice import LINEAR
 from r37core.time_integration.status import RunStatus
@@ -18,13 +19,7 @@ from . import style
 _MOST_RANKED = 60
 """Blades whose bars fit in a picture."""
 
-_IN_MOST = "length_most_revolutions_rad_s"
-_LENGTHS = {
-    "length_ever_rad_s": "in any revolution",
-    "length_some_revolutions_rad_s": "in some revolutions",
-    _IN_MOST: "in most revolutions",
-}
-"""Lengths above yield, each a bar on the one before, and what they are called."""
+_DANGEROUS, _UNKNOWN, _SUSTAINED = names(LENGTHS)
 
 
 def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
@@ -124,7 +119,7 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
         _draw_bars(axes, table, named=len(contacts) > 1)
         tied = len(table) > 1 and len(set(zip(table["rank"], table["contact"], strict=True))) == 1
         title = f"{style.scene_words(scene)}{': cannot be ranked' if tied else ''}"
-        axes.set(title=title, xlabel="speeds above yield (rad/s): most / some / ever")
+        axes.set(title=title, xlabel="speeds (rad/s): dangerous / unknown / sustained")
     if len(contacts) == 1 and contacts[0]:
         nodes, _, kinematics = contacts[0].partition(", ")
         figure.suptitle(f"contact: {nodes}; kinematics: {kinematics or LINEAR}")
@@ -135,24 +130,27 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
 def _draw_bars(axes: Axes, rows: pd.DataFrame, *, named: bool) -> None:
     """Bars of one scene, the best above; with `named` contacts under the names of the blades."""
     positions = np.arange(float(len(rows)))
-    for (name, label), height, alpha in zip(_LENGTHS.items(), (0.84, 0.66, 0.4), (0.15, 0.4, 1.0), strict=True):
-        axes.barh(positions, rows[name], height, color="C0", alpha=alpha, label=label)
-    # reach of the length in most revolutions, below and above; NaN if unknown
-    if f"{_IN_MOST}_low" in rows and rows[f"{_IN_MOST}_low"].notna().any():
-        reach = rows[_IN_MOST] - rows[f"{_IN_MOST}_low"], rows[f"{_IN_MOST}_high"] - rows[_IN_MOST]
+    axes.barh(positions, rows[_DANGEROUS], 0.7, color="C0", label="dangerous: yield is passed inside the model")
+    unknown = {"left": rows[_DANGEROUS], "label": "unknown: the model is left first", **style.UNKNOWN}
+    axes.barh(positions, rows[_UNKNOWN], 0.7, **unknown)
+    sustained = rows[_SUSTAINED].to_numpy(float)
+    axes.vlines(sustained, positions - 0.4, positions + 0.4, color="0.1", label="sustained: in most later revolutions")
+    # reach of the length of the dangerous speeds, below and above; NaN if unknown
+    if f"{_DANGEROUS}_low" in rows and rows[f"{_DANGEROUS}_low"].notna().any():
+        reach = rows[_DANGEROUS] - rows[f"{_DANGEROUS}_low"], rows[f"{_DANGEROUS}_high"] - rows[_DANGEROUS]
         (low, high), meaning = (each.clip(lower=0.0).values for each in reach), "nine tenths of the members"
     else:
-        high, meaning = rows["length_most_revolutions_within_rad_s"].values, "in most revolutions, known to within"
-        low = np.minimum(high, rows[_IN_MOST].values)
+        high, meaning = rows["length_dangerous_within_rad_s"].values, "dangerous, known to within"
+        low = np.minimum(high, rows[_DANGEROUS].values)
     if np.isfinite(low).any():
         axes.errorbar(
-            rows[_IN_MOST], positions, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
+            rows[_DANGEROUS], positions, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
         )
-    ends = np.fmax(rows[list(_LENGTHS)].max(axis=1), rows[_IN_MOST] + np.nan_to_num(high))
+    ends = np.fmax(np.fmax(rows[_DANGEROUS] + rows[_UNKNOWN], rows[_SUSTAINED]), rows[_DANGEROUS] + np.nan_to_num(high))
     largest = np.nanmax([1.0, *ends])
     for position, end, (_, row) in zip(positions, ends, rows.iterrows(), strict=True):
         if np.isfinite(end):
-            numbers = " / ".join(f"{row[name]:.0f}" for name in reversed(_LENGTHS))
+            numbers = " / ".join(f"{row[name]:.0f}" for name in (_DANGEROUS, _UNKNOWN, _SUSTAINED))
             axes.text(end + 0.02 * largest, position, numbers, va="center", fontsize=7)
     # a rank is among blades of one contact; rows are in the order of both
     rank = rows["rank"].astype(object).where(rows["rank"].notna(), "")

@@ -1,4 +1,4 @@
-"""Campbell diagrams with the interactions of a run, each a mark by the revolutions above yield, of the area of its length."""
+"""Campbell diagrams with the interactions of a run, each a mark by its danger, of the area of its length."""
 
 from collections.abc import Iterable
 from itertools import product
@@ -16,7 +16,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 from r37core.results.closing import interaction_title
-from r37core.results.columns import MOST, NEVER, SOME
+from r37core.results.events import Danger
 from r37core.results.interactions import sized
 from r37core.results.spectral_lines import frequency_named
 from r37core.rom.naming import NAMED_MODES
@@ -36,12 +36,12 @@ _SMALLEST = 25.0
 """Smallest area (pt^2) of a circle, which can still be seen: that of what is not above yield."""
 
 _MARKS = {
-    MOST: ("o", np.nan, 0.45, "above yield in most revolutions"),
-    SOME: ("D", 36.0, 0.45, "in some"),
-    NEVER: ("o", _SMALLEST, 0.0, "in none"),
+    Danger.DANGEROUS.text: ("o", np.nan, 0.45, "dangerous: yield is passed"),
+    Danger.UNKNOWN.text: ("D", 36.0, 0.45, "unknown: the model is left first"),
+    Danger.BELOW.text: ("o", _SMALLEST, 0.0, "below yield"),
     "": (".", _SMALLEST, 0.0, "stress not known"),
 }
-"""`above` of results.interactions.sized -> marker, its area (pt^2; NaN: by the size), how dense it is, and its meaning."""
+"""`danger` of results.interactions.sized -> marker, its area (pt^2; NaN: by the size), how dense it is, and its meaning."""
 
 _LETTERS: dict[Any, Any] = {f"{part}size": 9 for part in ("font.", "axes.label", "xtick.label", "ytick.label", "legend.font")}
 _HALO = [withStroke(linewidth=2.0, foreground="white")]
@@ -54,11 +54,11 @@ _OTHERS = "0.45"
 
 
 def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.DataFrame) -> Figure:
-    """Draw a panel for each scene, at most six: those with the longest lengths above yield.
+    """Draw a panel for each scene, at most six: those with the longest dangerous ranges.
 
     `interactions`: summary.csv; `rms`: which speeds were run. A circle stands at the peak speed and at the frequency of its
-    engine order there, without one on a strip below. Its area is the length above yield in most revolutions or, in a scene
-    without stress, the motion; other marks are above yield in some revolutions or never. Lines: speeds above yield.
+    engine order there, without one on a strip below. Its area is the length of the dangerous speeds or, in a scene without
+    stress, the motion; other marks are unknown or below yield. Lines: dangerous and sustained speeds.
     """
     rows = sized(interactions, rms)
     lengths = rows[rows["unit"] == "rad/s"].groupby("scene")["size"].max()
@@ -83,8 +83,8 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     strip = -_STRIP * highest if rows["frequency"].isna().any() else 0.0
     rows = rows.assign(frequency=rows["frequency"].fillna(strip).clip(upper=highest), higher=rows["frequency"] > highest)
     sized_by_motion = rows["unit"] == "mm"
-    rows["above"] = rows["above"].mask(sized_by_motion, MOST)
-    rows["area"] = rows["above"].map({above: area for above, (_, area, *_) in _MARKS.items()})
+    rows["danger"] = rows["danger"].mask(sized_by_motion, Danger.DANGEROUS.text)
+    rows["area"] = rows["danger"].map({above: area for above, (_, area, *_) in _MARKS.items()})
     rows["area"] = rows["area"].fillna(_LARGEST**2 * rows["size"] / rows["scale"]).fillna(0.0).clip(lower=_SMALLEST)
     with plt.rc_context(_LETTERS | {"axes.titlesize": 10}):
         size = (_WIDTH, 0.9 + len(scenes) * (3.0 if len(scenes) < 3 else 2.4))
@@ -108,7 +108,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
         close: dict[str, Any] = {"handletextpad": 0.1, "columnspacing": 1.0}
         style.legend_below(figure, grid.flat, 5, **close)
         if not sized_by_motion.all():
-            known = {above: mark for above, mark in _MARKS.items() if above or "" in set(rows["above"])}
+            known = {above: mark for above, mark in _MARKS.items() if above or "" in set(rows["danger"])}
             keys = [
                 Line2D([], [], marker=mark, markerfacecolor=to_rgba("0.2", share), linestyle="", markeredgecolor="0.2")
                 for mark, _, share, _ in known.values()
@@ -116,7 +116,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
             figure.legend(keys, [label for *_, label in known.values()], loc="outside upper center", ncols=4, **close)
         figure.draw_without_rendering()
         # above yield or with a motion, the longest first and then those with the most revolutions
-        dangerous = rows[rows["above"].isin([MOST, SOME])]
+        dangerous = rows[rows["danger"].isin([Danger.DANGEROUS.text, Danger.UNKNOWN.text])]
         dangerous = dangerous.sort_values(["size", "share_of_revolutions_above_yield"], ascending=False)
         for scene, axes in panels.items():
             _label(axes, dangerous[dangerous["scene"] == scene], figure.dpi / 72.0, named=len(colours) > 1)
@@ -157,13 +157,13 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
     for blade in [blade for blade in colours if blade in set(rows["blade"])] if len(colours) > 1 else []:
         axes.scatter([], [], 30.0, color=colours[blade], label="other blades" if colours[blade] == _OTHERS else blade)
     for row in rows.to_dict("records"):
-        ends = np.array([row["some_revolutions_from_rad_s"], row["some_revolutions_to_rad_s"]], float)
+        ends = np.array([row["from_rad_s"], row["to_rad_s"]], float)
         along = ends / row["peak_speed_rad_s"] if row["frequency"] > 0.0 and not row["higher"] else 1.0
         heights, colour = row["frequency"] * np.broadcast_to(along, 2), colours[row["blade"]]
         axes.plot(ends, heights, color=colour, linewidth=2.5, alpha=0.45, zorder=2.4, solid_capstyle="butt")
     diverged = rows["status"] == RunStatus.DIVERGED.text
     for above, (marker, _, share, _) in _MARKS.items():
-        part = rows[(rows["above"] == above) & (~diverged | (rows["size"] > 0.0))].sort_values("area", ascending=False)
+        part = rows[(rows["danger"] == above) & (~diverged | (rows["size"] > 0.0))].sort_values("area", ascending=False)
         faces, edges = ([to_rgba(colours[blade], alpha) for blade in part["blade"]] for alpha in (share, 1.0))
         x, y = _places(part)
         axes.scatter(
@@ -232,12 +232,12 @@ def _label(axes: Axes, rows: pd.DataFrame, point: float, *, named: bool) -> None
 
 
 def _text(row: dict[str, Any], *, named: bool) -> str:
-    """Label of a mark: Ref 1B/4, 98 rad/s; of one above yield in some revolutions: Ref 1B/5, up to 4.5 x yield."""
+    """Label of a mark: Ref 1B/4, 98 rad/s; of an unknown one: Ref 1B/5, unknown from 0.8 x yield."""
     order = row["engine_order"]
     title = interaction_title(row["mode"], order).removeprefix("engine ") if pd.notna(order) else ""
     name = " ".join([row["blade"]] * named + [title] * bool(title))
     amount = f"{row['size']:.0f}" if row["size"] >= 10.0 else f"{row['size']:.2g}"
     amount = f"{'> ' * row['onward']}{amount} {row['unit']}"
-    if row["above"] == SOME:
-        amount = f"up to {row['largest_stress_over_yield']:.2g} x yield"
+    if row["danger"] == Danger.UNKNOWN.text:
+        amount = f"unknown from {row['largest_stress_over_yield']:.2g} x yield"
     return f"{name}, {amount}" if name else amount

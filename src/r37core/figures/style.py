@@ -54,6 +54,9 @@ def scene_words(scene: Any) -> str:
     return _SHIPPED.get(str(scene), str(scene))
 
 
+UNKNOWN: dict[str, Any] = {"facecolor": "none", "edgecolor": "0.5", "hatch": "////", "linewidth": 0.6}
+"""Look of speeds at which the model's limits are left before yield is passed."""
+
 ABOVE_YIELD = "above yield"
 OUTSIDE = f"{ABOVE_YIELD}: outside the linear model"
 

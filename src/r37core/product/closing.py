@@ -17,7 +17,7 @@ from r37core.results.closing import (
     remarks_on_diverged,
     remarks_on_limits,
 )
-from r37core.results.columns import MOST, NOT_RESOLVED, SOME, above_yield
+from r37core.results.columns import LENGTHS, NOT_RESOLVED, names
 from r37core.results.limits import OF_LIMITS
 from r37core.results.table_file import read_table
 from r37core.rom.reduction_choice import QUADRATIC
@@ -25,11 +25,12 @@ from r37core.time_integration.speed_arrays import OF_LINING
 from r37core.time_integration.status import RunStatus
 
 _SECOND_ORDER = "peak_share_of_height"
-_LENGTH = "length_most_revolutions_rad_s"
+_LENGTH, _UNKNOWN, _SUSTAINED = names(LENGTHS)
 
 _COLUMNS = (
-    "share_of_revolutions_above_yield", "worn_through_share", "note", "largest_stress_pa", "largest_stress_pa_low",
-    "largest_stress_pa_high", _LENGTH, "length_most_revolutions_worst_rad_s", "ranges_most_revolutions",
+    "share_of_revolutions_above_yield", "worn_through_share", "note", "largest_stress_inside_pa",
+    "largest_stress_inside_pa_low", "largest_stress_inside_pa_high", _LENGTH, _UNKNOWN, _SUSTAINED,
+    "length_most_revolutions_worst_rad_s", "ranges_dangerous",
     "widest_range_from_rad_s", "widest_range_rad_s", "contact", "rank_over_scenes", "largest_gap_rad_s",
 )  # fmt: skip
 """Columns of summary.csv or ranking.csv that lines are made of, and that not every run has."""
@@ -72,34 +73,32 @@ def _table(file: Path, began: float) -> pd.DataFrame | None:
 def _found(table: pd.DataFrame) -> str:
     if table.empty:
         return "found no interaction"
-    known = table[table["share_of_revolutions_above_yield"].notna()]
-    kinds = [above_yield(share) for share in known["share_of_revolutions_above_yield"]]
+    known = table[table[_LENGTH].notna()]
     text = f"found {counted(len(table), 'interaction')}"
-    if MOST in kinds or SOME in kinds:
-        text += f", {kinds.count(MOST)} of them above yield in most revolutions, {kinds.count(SOME)} in some"
-    elif kinds:
-        text += ", none of them above yield in any later revolution"
+    if len(known):
+        dangerous, unknown = known[_LENGTH] > 0.0, known[_UNKNOWN] > 0.0
+        text += f", {dangerous.sum() or 'none'} of them dangerous (above yield inside the model's limits)"
+        text += f", {(unknown & ~dangerous).sum()} unknown (these are left first)" if (unknown & ~dangerous).any() else ""
     if worn_through := np.count_nonzero(table["worn_through_share"] > 0.0):
         text += f", {worn_through} with the lining worn through to the casing"
     if unresolved := sum(NOT_RESOLVED in str(note) for note in table["note"]):
         text += f", {unresolved} not resolved, as one or two speeds show the peak"
-    ended = known[known["largest_stress_pa"].notna()]
+    ended = known[known["largest_stress_over_yield"].notna()]
     return (
         text if ended.empty else f"{text}; the largest stress {_worst(ended.loc[ended['largest_stress_over_yield'].idxmax()])}"
     )
 
 
 def _worst(row: Any) -> str:
-    """How far the stress of an interaction goes, where, and in how many of the revolutions it is above yield."""
-    share, title = row["share_of_revolutions_above_yield"], interaction_title(row["mode"], row["engine_order"])
-    where = f"{row['blade']} in {row['scene']} at {row['largest_stress_speed_rad_s']:.6g} rad/s ({title})"
-    text = f"{_stress(row)}, {row['largest_stress_over_yield']:.3g} times yield, {where}"
-    return f"{text}, above yield in up to {max(round(100.0 * share), 1)}% of the revolutions" if share > 0.0 else text
+    """How far the stress of an interaction goes inside the model, and where."""
+    where = f"{row['blade']} in {row['scene']} at {row['largest_stress_speed_rad_s']:.6g} rad/s"
+    title = interaction_title(row["mode"], row["engine_order"])
+    return f"{_stress(row)}, {row['largest_stress_over_yield']:.3g} times yield before the model is left, {where} ({title})"
 
 
 def _stress(row: Any) -> str:
     """The largest stress; where members give it a range, with as many digits as that bears, and the range beside it."""
-    nominal, low, high = (1e-9 * row[f"largest_stress_pa{end}"] for end in ("", "_low", "_high"))
+    nominal, low, high = (1e-9 * row[f"largest_stress_inside_pa{end}"] for end in ("", "_low", "_high"))
     if np.isnan(high - low):
         return f"{nominal:.2f} GPa"
     nominal, low_text, high_text = (rounded_to(value, high - low) for value in (nominal, low, high))
@@ -129,28 +128,28 @@ def _extremes(rows: pd.DataFrame, file: Path) -> Iterator[str]:
         if len(safest) < len(table):
             verb = "is" if len(safest) == 1 else "are"
             yield (
-                f"{scene}: {_named(safest)} {verb} above yield in most revolutions at the fewest speeds ({_lengths(safest)}), "
+                f"{scene}: {_named(safest)} {verb} dangerous at the fewest speeds ({_lengths(safest)}), "
                 f"{_named(longest)} at the most ({_lengths(longest)}); {file}"
             )
         elif len(table) > 1:
-            over = f"above yield in most revolutions over {_lengths(table)}"
+            over = f"dangerous over {_lengths(table)}"
             yield f"{scene}: {_named(table)} cannot be ranked ({over}); {file}"
 
 
 def _lengths(rows: pd.DataFrame) -> str:
-    """Length above yield of blades that share a rank, or the range of their lengths.
+    """Length of the dangerous speeds of blades that share a rank, or the range of their brackets.
 
-    Of one its widest range where it has several, and the length by other motions where it is longer.
+    Of one its widest range where it has several, and the sustained length by other motions where it is longer.
     """
-    low, high = rows[_LENGTH].min(), rows[_LENGTH].max()
+    low, high = rows[_LENGTH].min(), (rows[_LENGTH] + rows[_UNKNOWN]).max()
     if high > low:
         return f"{low:.0f} to {high:.0f} rad/s"
     row = rows.iloc[-1]
-    text, ranges, worst = f"{high:.0f} rad/s", row["ranges_most_revolutions"], row["length_most_revolutions_worst_rad_s"]
+    text, ranges, worst = f"{high:.0f} rad/s", row["ranges_dangerous"], row["length_most_revolutions_worst_rad_s"]
     if ranges >= 2:
         begin, width = row["widest_range_from_rad_s"], row["widest_range_rad_s"]
         text += f" in {ranges:.0f} ranges, the widest from {begin:.0f} to {begin + width:.0f}"
-    return f"{text} from rest, {worst:.0f} by the worst motion" if worst > high else text
+    return f"{text} from rest, {worst:.0f} sustained by the worst motion" if worst > high else text
 
 
 def _named(rows: pd.DataFrame) -> str:

@@ -5,15 +5,13 @@ Extensions declare those that they add (plans.extension.AddedColumns). Light: th
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from math import isnan
 
 from r37core.base.units import si_name
 
-MOST_REVOLUTIONS, SOME_REVOLUTIONS = 0.5, 0.05
-"""Shares of the revolutions above which a speed counts as above yield in most, and in some, revolutions."""
+from .limits import Cause
 
-MOST, SOME, NEVER = "most", "some", "never"
-"""Words for a stress above yield in most of the judged revolutions, in some of them, or in none."""
+MOST_REVOLUTIONS = 0.5
+"""Share of the later revolutions above which a speed counts as above yield in most of them."""
 
 NOT_RESOLVED = "not resolved"
 """Begin of the note on a length that counts a peak of which one or two speeds are above half of its height."""
@@ -55,11 +53,6 @@ class Column:
         return [f"{self.name}_{end}" for end in ENDS]
 
 
-def above_yield(share: float) -> str:
-    """MOST, SOME or NEVER, by a share of the revolutions above yield; empty where it is not known."""
-    return "" if isnan(share) else MOST if share > MOST_REVOLUTIONS else SOME if share > 0.0 else NEVER
-
-
 def names(columns: Iterable[Column]) -> list[str]:
     """Names of the columns in a table, each followed by that of its scatter."""
     return [name for column in columns for name in (column.name, *([column.scatter_name] if column.scatter else []))]
@@ -68,28 +61,40 @@ def names(columns: Iterable[Column]) -> list[str]:
 _REVOLUTIONS = "later revolutions"
 """Revolutions in the second half of a run; the last hundred of one that goes on until it settles."""
 
-_IN_SOME = f"more than {SOME_REVOLUTIONS:.0%} of the {_REVOLUTIONS} exceed yield"
 _IN_MOST = f"more than {MOST_REVOLUTIONS:.0%} of the {_REVOLUTIONS} exceed yield"
 _STRESS = f"of the von Mises stress over the {_REVOLUTIONS}"
-_MOST, _SOME = "above yield in most revolutions", "above yield in some revolutions"
+_DANGEROUS = "where yield is passed in some revolution, before the model's limits are left"
 _LOST = f"share of the amplitude lost within {DROP_WITHIN:g} rad/s above the peak"
 
 LENGTHS = (
+    Column("length_dangerous_rad_s", f"length of all dangerous speeds, {_DANGEROUS}"),
+    Column("length_unknown_rad_s", "length of all unknown speeds, at which the model's limits are left before yield is passed"),
     Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}"),
-    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}"),
-    Column("length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield"),
 )
-"""How long a range of speeds is above yield (results.exceedance)."""
+"""How long a range of speeds is dangerous, unknown and sustained (results.danger)."""
+
+LEFT_BY = {
+    cause: Column(f"runs_left_by_{cause.text}", f"runs that leave the model's limits first by {words}")
+    for cause, words in {
+        Cause.HEIGHT: "their motion, next to the blade's height",
+        Cause.FORCE: "their contact force",
+        Cause.HEAT: "the heat of the friction",
+        Cause.ENERGY: "energy that is unaccounted for or bounded",
+    }.items()
+}
+"""Column of the runs that leave the model's limits, by the cause."""
 
 DANGER = (
     *LENGTHS,
     Column("share_of_revolutions_above_yield", f"largest share, at any of the speeds, of the {_REVOLUTIONS} that exceed yield"),
     Column("largest_median_stress_pa", f"largest median {_STRESS}"),
     Column("largest_high_stress_pa", f"largest 90% quantile {_STRESS}"),
-    Column("largest_stress_pa", f"largest {_STRESS}"),
-    Column("largest_stress_over_yield", "largest stress over the yield stress"),
-    Column("largest_stress_speed_rad_s", "speed of the largest stress"),
+    Column("largest_stress_pa", "largest von Mises stress of all revolutions"),
+    Column("largest_stress_inside_pa", "largest von Mises stress before the model's limits are left"),
+    Column("largest_stress_over_yield", "this stress over the yield stress"),
+    Column("largest_stress_speed_rad_s", "its speed"),
     Column("largest_goodman_share", "largest share of the Goodman line"),
+    *LEFT_BY.values(),
 )
 """How dangerous a range of speeds is, the same for interactions, blades, designs and members (results.danger)."""
 
@@ -124,8 +129,10 @@ INTERACTIONS = (
         "at the peak speed: `growing`, `lasting`, `cut_free` (has decayed or lost contact) or `quiet` (within the clearance)",
     ),
     Column("lasting_share", "share of the interaction's speeds whose motion lasts or grows at the end"),
-    Column("some_revolutions_from_rad_s", f"lowest speed at which {_IN_SOME}", scatter=True),
-    Column("some_revolutions_to_rad_s", f"highest speed at which {_IN_SOME}", scatter=True),
+    Column("from_rad_s", "lowest speed of a row in direct contact: dangerous or sustained"),
+    Column("to_rad_s", "its highest speed"),
+    Column("dangerous_from_rad_s", "lowest dangerous speed"),
+    Column("dangerous_to_rad_s", "highest dangerous speed"),
     Column("most_revolutions_from_rad_s", f"lowest speed at which {_IN_MOST}", scatter=True),
     Column("most_revolutions_to_rad_s", f"highest speed at which {_IN_MOST}", scatter=True),
     Column("peak_motion_m", "normal and tangential rms together, at the peak speed", scatter=True),
@@ -139,24 +146,24 @@ standard deviation by chance of what stands before it (results.exceedance). NaN 
 """
 
 ROBUSTNESS = (
-    *(replace(column, scatter=True) for column in LENGTHS[:2]),
-    *DANGER[2:],
+    *LENGTHS[:2],
+    replace(LENGTHS[2], scatter=True),
+    *DANGER[3:],
     Column(
-        "length_most_revolutions_within_rad_s",
-        "by how much that length may be off: two standard deviations by chance and speeds, and the level's error",
+        "length_dangerous_within_rad_s",
+        "by how much that length may be off: two standard deviations by the distance of the speeds, and the level's error",
     ),
-    Column("length_some_revolutions_within_rad_s", "the same of the length in some revolutions"),
     Column(
         "length_lasting_rad_s", "length of all speeds above yield in most revolutions whose motion lasts or grows at the end"
     ),
     Column("exceedance_integral_rad_s", f"integral over speed of the share of {_REVOLUTIONS} that exceed yield", scatter=True),
     Column("length_goodman_rad_s", "length of all speeds above the Goodman line in most revolutions"),
     Column("goodman_integral_rad_s", "integral over speed of the share of revolutions above the Goodman line"),
-    Column("first_most_revolutions_rad_s", f"lowest speed {_MOST}"),
-    Column("first_some_revolutions_rad_s", f"lowest speed {_SOME}"),
-    Column("widest_range_rad_s", "width of the widest range above yield in most revolutions"),
-    Column("widest_range_from_rad_s", "lowest speed of the widest range above yield"),
-    Column("ranges_most_revolutions", "number of ranges above yield in most revolutions"),
+    Column("first_dangerous_rad_s", "lowest dangerous speed"),
+    Column("first_most_revolutions_rad_s", f"lowest speed at which {_IN_MOST}"),
+    Column("widest_range_rad_s", "width of the widest range of dangerous speeds"),
+    Column("widest_range_from_rad_s", "its lowest speed"),
+    Column("ranges_dangerous", "number of ranges of dangerous speeds"),
     Column("largest_rms_m", "largest normal and tangential rms of the leading edge together"),
     Column("largest_rms_speed_rad_s", "speed of the largest rms"),
     Column("drop", _LOST),
@@ -166,8 +173,9 @@ ROBUSTNESS = (
 """Measures of a response, the same for blades, designs and members."""
 
 OPERATING = (
-    Column("length_most_revolutions_operating_rad_s", "this length inside the operating range"),
-    Column("length_most_revolutions_operating_within_rad_s", "by how much that length may be off"),
+    Column("length_dangerous_operating_rad_s", "length of the dangerous speeds inside the operating range"),
+    Column("length_unknown_operating_rad_s", "length of the unknown speeds inside it"),
+    Column("length_most_revolutions_operating_rad_s", f"length inside it at which {_IN_MOST}"),
     Column(
         "exceedance_integral_operating_rad_s",
         "integral over the operating range of the share of later revolutions above yield, weighted by its dwells",
@@ -183,14 +191,14 @@ OPERATING = (
 OVER_SCENES = (
     Column("rank_over_scenes", "rank by the longest length in any scene; shared by what cannot be told apart"),
     Column("worst_rank", "worst rank of the blade in any scene"),
-    Column("length_over_scenes_rad_s", "sum of the lengths above yield over all scenes"),
+    Column("length_over_scenes_rad_s", "sum of the lengths of dangerous speeds over all scenes"),
 )
 """Columns of ranking.csv that are the same in all scenes, where there are several."""
 
 RANKING = (
     Column(
         "rank",
-        "place in the scene, by length above yield in most, then in some revolutions; shared by what cannot be told apart",
+        "place in the scene, by the bracket from dangerous speeds to these and unknown ones; shared where brackets overlap",
     ),
     Column("rank_lowest", "one more than the blades that are surely better"),
     Column("rank_highest", "place where all that are not surely worse stand before it"),

@@ -9,9 +9,9 @@ import xarray as xr
 
 from r37core.base.peaks import half_width
 
-from .columns import DROP_WITHIN, NOT_RESOLVED, SOME_REVOLUTIONS
+from .columns import DROP_WITHIN, MOST_REVOLUTIONS, NOT_RESOLVED
 from .danger import ranges_of, ratio_to_yield
-from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
+from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, joined, outside, ranges_above
 from .interaction import Interaction, interaction_row, range_columns
 from .measures import motion, strongest_order
 
@@ -29,8 +29,7 @@ def rows_above_yield(
 
     `name`: columns that name the response at one speed, see spectral_lines.named_by_lines.
 
-    A range is where the smoothed share of the revolutions above yield is above SOME_REVOLUTIONS, where a speed's own share is,
-    or where any judged revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
+    A range has speeds that are dangerous or sustained, one after another. `response`: of the leading edge.
     """
     exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
     ranges = _ranges(response, exceedance)
@@ -45,34 +44,24 @@ def rows_above_yield(
 
 def ranges_without_peak(response: xr.Dataset, reaches: Sequence[SpeedRange]) -> list[Interaction]:
     """Rows of ranges above yield, as far as they lie outside of the `reaches` of all interactions of a lined scene."""
-    if "share_of_revolutions_above_yield" not in response:
+    if "max_von_mises_inside" not in response:
         return []
     exceedance = exceedance_of(response)
     ratio = ratio_to_yield(response)
     above = ratio["speed"].values[ratio.values > 1.0]
-    parts = [part for within in _ranges(response, exceedance) for part in _outside(within, reaches)]
+    parts = [part for within in _ranges(response, exceedance) for part in outside(within, reaches)]
     alone = above[[not any(reach.begin <= speed <= reach.end for reach in reaches) for speed in above]]
     return [
         _row(response, exceedance, part, note=NO_PEAK) for part in parts if np.any((alone >= part.begin) & (alone <= part.end))
     ]
 
 
-def _outside(within: SpeedRange, reaches: Sequence[SpeedRange]) -> list[SpeedRange]:
-    """The parts of a range that no other of the ranges has."""
-    parts = [within]
-    for reach in reaches:
-        cut = [(part.begin, min(part.end, reach.begin)) for part in parts]
-        cut += [(max(part.begin, reach.end), part.end) for part in parts]
-        parts = [SpeedRange(begin, end, within.truncated) for begin, end in cut if begin <= end]
-    return parts
-
-
 def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
     if exceedance is None:
         return []
-    own = ranges_above(exceedance.speeds, exceedance.shares, SOME_REVOLUTIONS)
-    *_, ever = ranges_of(response, exceedance).values()
-    return joined([*own, *ever])
+    own = ranges_above(exceedance.speeds, exceedance.shares, MOST_REVOLUTIONS)
+    dangerous, _, sustained = ranges_of(response).values()
+    return joined([*own, *dangerous, *sustained])
 
 
 def _row(
@@ -100,7 +89,7 @@ def _row(
         columns |= range_columns(response, exceedance, within)
     if exceedance and not peak_alone:
         # ends of the row itself, which may be single speeds
-        columns |= {"some_revolutions_from_rad_s": within.begin, "some_revolutions_to_rad_s": within.end}
+        columns |= {"from_rad_s": within.begin, "to_rad_s": within.end}
         if len(inside) <= 2 and 0 < half_width(level, index) <= 2:
             gap = np.diff(speeds[index - 1 : index + 2]).max()
             notes.append(f"{NOT_RESOLVED}: one or two speeds show the peak, {gap:.3g} rad/s apart")

@@ -1,39 +1,63 @@
-"""Danger of runs: how far the stress of their judged revolutions goes, for verdict, tables, pictures and closing lines.
+"""Danger of speeds: which are dangerous, which unknown and which sustained, for verdict, tables, pictures and closing lines.
 
-Judged are the later revolutions, in the region of the stress that decides (results.regions). A run that diverged is above yield
-in all of them.
+Dangerous: yield is passed in some revolution, before the run leaves the model's limits. Unknown: these are left first.
+Sustained: above yield in most of the later revolutions, wherever the model is. All in the region of the stress that decides
+(results.regions).
 """
+
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray as xr
 
 from r37core.time_integration.status import RunStatus
 
-from .columns import DANGER, LENGTHS, MOST_REVOLUTIONS, SOME_REVOLUTIONS, names
-from .exceedance import Exceedance, SpeedRange, exceedance_of, joined, length_of, ranges_above
+from .columns import DANGER, LEFT_BY, LENGTHS, MOST_REVOLUTIONS, names
+from .exceedance import Exceedance, SpeedRange, exceedance_of, length_of, outside, ranges_above
 
 STRESSES = {
     "largest_median_stress_pa": "max_von_mises_median",
     "largest_high_stress_pa": "max_von_mises_high",
     "largest_stress_pa": "max_von_mises_ever",
+    "largest_stress_inside_pa": "max_von_mises_inside",
     "largest_goodman_share": "goodman_share",
 }
 """Column of DANGER -> variable of a response whose largest value it is."""
 
 
-def ratio_to_yield(response: xr.Dataset, stress: str = "max_von_mises_ever") -> xr.DataArray:
-    """A stress, by default the largest, as a share of yield, over the speeds that were run; infinite if diverged."""
+def ratio_to_yield(response: xr.Dataset, stress: str = "max_von_mises_inside") -> xr.DataArray:
+    """A stress, by default the largest inside the model, as a share of yield, over the speeds that were run.
+
+    Infinite where a run diverged that had not left the model's limits before.
+    """
     ratio = response[stress] / response["yield_stress"]
-    return ratio.where(response["status"] != RunStatus.DIVERGED, np.inf).dropna("speed")
+    diverged = (response["status"] == RunStatus.DIVERGED) & response["exit_revolution"].isnull()
+    return ratio.where(~diverged, np.inf).dropna("speed")
 
 
-def ranges_of(response: xr.Dataset, exceedance: Exceedance) -> dict[str, list[SpeedRange]]:
-    """Ranges of speeds above yield, by the name of the column that has their length: in most and some revolutions, and ever."""
+def danger_ranges(response: xr.Dataset, factor: float = 1.0) -> tuple[list[SpeedRange], list[SpeedRange]]:
+    """Ranges of dangerous speeds, and of unknown ones, which do not overlap; with stresses that are larger by a `factor`.
+
+    Between two speeds the stress is a straight line; an unknown speed reaches half of the way to the next one.
+    """
     ratio = ratio_to_yield(response)
-    most, some = (exceedance.ranges(share) for share in (MOST_REVOLUTIONS, SOME_REVOLUTIONS))
-    # between speeds the share's straight line is above its limit longer than the stress is above yield
-    ever = joined([*some, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
-    return dict(zip(names(LENGTHS), (most, some, ever), strict=True))
+    speeds, above = ratio["speed"].values, factor * ratio.values > 1.0
+    left = response["exit_revolution"].sel(speed=ratio["speed"]).notnull().values
+    dangerous = ranges_above(speeds, ratio.values, 1.0 / factor)
+    reached = ranges_above(speeds, (left & ~above).astype(float), 0.5)
+    return dangerous, [part for within in reached for part in outside(within, dangerous) if part.length > 0.0]
+
+
+def ranges_of(response: xr.Dataset) -> dict[str, list[SpeedRange]]:
+    """Ranges of dangerous, unknown and sustained speeds, by the name of the column that has their length."""
+    sustained = exceedance_of(response).ranges(MOST_REVOLUTIONS)
+    return dict(zip(names(LENGTHS), (*danger_ranges(response), sustained), strict=True))
+
+
+def grid_scatter(response: xr.Dataset, measure: Callable[[Sequence[SpeedRange]], float] | None = None) -> float:
+    """Standard deviation (rad/s) of the length, or another `measure`, of the dangerous speeds by the distance of the speeds."""
+    ratio = ratio_to_yield(response)
+    return Exceedance(ratio["speed"].values, ratio.values, chance=False).scatter_of_length(1.0, measure)
 
 
 def largest_of(response: xr.Dataset) -> dict[str, float]:
@@ -44,30 +68,29 @@ def largest_of(response: xr.Dataset) -> dict[str, float]:
     for column, name in STRESSES.items():
         if name in response:
             measures[column] = float(response[name].max())
-    if "max_von_mises_ever" in response and (known := response["max_von_mises_ever"].dropna("speed")).size:
+    if "max_von_mises_inside" in response and (known := response["max_von_mises_inside"].dropna("speed")).size:
         measures["largest_stress_speed_rad_s"] = float(known["speed"][int(np.argmax(known.values))])
         measures["largest_stress_over_yield"] = float(known.max() / response["yield_stress"])
+    if "exit_cause" in response:
+        causes = response["exit_cause"].values
+        measures |= {column.name: float(np.count_nonzero(causes == cause)) for cause, column in LEFT_BY.items()}
     return measures
 
 
 def danger_of(response: xr.Dataset) -> dict[str, float]:
     """DANGER of all speeds of a response; NaN of what is not computed."""
     measures = dict.fromkeys(names(DANGER), np.nan) | largest_of(response)
-    if "share_of_revolutions_above_yield" in response and response.sizes["speed"]:
-        ranges = ranges_of(response, exceedance_of(response))
-        measures |= {name: length_of(parts) for name, parts in ranges.items()}
+    if "max_von_mises_inside" in response and response.sizes["speed"]:
+        measures |= {name: length_of(parts) for name, parts in ranges_of(response).items()}
     return measures
 
 
-def moved_by_error(response: xr.Dataset, stress: str, error: float) -> float:
-    """Largest change of the length (rad/s) of the speeds at which a stress is above yield, if it has a relative `error`.
+def moved_by_error(response: xr.Dataset, error: float) -> float:
+    """Largest change of the length (rad/s) of the dangerous speeds if the stress has a relative `error`.
 
     NaN where the error is not known.
     """
     if np.isnan(error):
         return np.nan
-    ratio = ratio_to_yield(response, stress)
-    levels = (1.0, 1.0 + error, 1.0 / (1.0 + error))
-    ranges = [ranges_above(ratio["speed"].values, ratio.values, level) for level in levels]
-    nominal, *others = map(length_of, ranges)
+    nominal, *others = (length_of(danger_ranges(response, factor)[0]) for factor in (1.0, 1.0 + error, 1.0 / (1.0 + error)))
     return max(abs(other - nominal) for other in others)

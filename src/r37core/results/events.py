@@ -40,7 +40,9 @@ OF_EXIT = {
 }
 OF_YIELD = {
     **_declared("yield", "yield"),
-    "max_von_mises_inside": Variable(_REGION, "Pa", "largest von Mises stress in the region before the model's limits are left"),
+    "max_von_mises_inside": Variable(
+        _REGION, "Pa", "largest von Mises stress in the region before the model's limits are left"
+    ),
 }
 OF_GOODMAN = {
     **_declared("goodman", "the Goodman line"),
@@ -86,7 +88,9 @@ def goodman_events(run: Mapping[str, np.ndarray], strengths: Strengths, exit_rev
     return dict(zip(OF_GOODMAN, _of_history(run, goodman_history(run, strengths), 1.0, exit_revolution), strict=True))
 
 
-def _of_history(run: Mapping[str, np.ndarray], history: np.ndarray, limit: float, exit_revolution: float) -> tuple[np.ndarray, ...]:
+def _of_history(
+    run: Mapping[str, np.ndarray], history: np.ndarray, limit: float, exit_revolution: float
+) -> tuple[np.ndarray, ...]:
     """Events of a history that has all revolutions, or the last ones, of a run."""
     revolutions = len(run["revolution_maximum"])
     # one of all revolutions has them in place, one of those that were done ends with the last

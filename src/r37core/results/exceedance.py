@@ -9,14 +9,12 @@ repeats itself: its shares are taken as they are.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 import xarray as xr
 
 from r37core.time_integration.status import RunStatus
-
-from .columns import MOST_REVOLUTIONS, SOME_REVOLUTIONS
 
 HALF_WIDTH = 10.0
 """Distance (rad/s) at which a neighbour's share has no weight any more; its weight falls in a straight line to there."""
@@ -126,12 +124,9 @@ class Exceedance:
         return (self.weights @ self.shares[chosen]).T
 
     @cached_property
-    def ranges_drawn(self) -> dict[float, list[list[SpeedRange]]]:
-        """Share -> ranges above it, of each of the drawn shares."""
-        return {
-            share: [ranges_above(self.speeds, drawn, share) for drawn in self.drawn]
-            for share in (MOST_REVOLUTIONS, SOME_REVOLUTIONS)
-        }
+    def ranges_drawn(self) -> Callable[[float], list[list[SpeedRange]]]:
+        """Gives the ranges above a share, of each of the drawn shares."""
+        return cache(lambda share: [ranges_above(self.speeds, drawn, share) for drawn in self.drawn])
 
     def scatter_of_length(
         self, share: float, measure: Callable[[Sequence[SpeedRange]], float] | None = None, *, chance: bool = True
@@ -142,7 +137,7 @@ class Exceedance:
         the speeds hit or miss what is narrower than their distance, as throws of a coin. `chance`: whether chance is drawn.
         """
         length = measure or length_of
-        drawn = [length(ranges) for ranges in self.ranges_drawn[share]] if self.chance and chance else [0.0]
+        drawn = [length(ranges) for ranges in self.ranges_drawn(share)] if self.chance and chance else [0.0]
         above = self.smoothed > share
         borders = np.flatnonzero(above[1:] != above[:-1])
         # what goes on beyond the first or last speed may be long
@@ -164,7 +159,7 @@ class Exceedance:
         if not self.chance or border in (self.speeds[0], self.speeds[-1]):
             return np.nan
         off = []
-        for ranges in self.ranges_drawn[share]:
+        for ranges in self.ranges_drawn(share):
             same = [part for part in ranges if part.begin <= of.end and part.end >= of.begin]
             drawn_border = (same[0].begin if begins else same[-1].end) if same else np.inf
             off.append(abs(drawn_border - border))
@@ -217,3 +212,13 @@ def joined(ranges: Sequence[SpeedRange]) -> list[SpeedRange]:
             current = SpeedRange(before.begin, max(before.end, current.end), before.truncated or current.truncated)
         merged.append(current)
     return merged
+
+
+def outside(within: SpeedRange, reaches: Sequence[SpeedRange]) -> list[SpeedRange]:
+    """The parts of a range that no other of the ranges has."""
+    parts = [within]
+    for reach in reaches:
+        cut = [(part.begin, min(part.end, reach.begin)) for part in parts]
+        cut += [(max(part.begin, reach.end), part.end) for part in parts]
+        parts = [SpeedRange(begin, end, within.truncated) for begin, end in cut if begin <= end]
+    return parts

@@ -10,7 +10,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.speed_arrays import PLACE_OF_STRESS
 from r37core.time_integration.status import RunStatus
 
-from .columns import INTERACTIONS, MOST_REVOLUTIONS, SOME_REVOLUTIONS, names
+from .columns import INTERACTIONS, MOST_REVOLUTIONS, names
 from .danger import largest_of, ranges_of
 from .exceedance import Exceedance, SpeedRange
 from .measures import drop_after, lasts
@@ -31,18 +31,18 @@ the end of a branch the motion is chaotic.
 
 
 def range_columns(response: xr.Dataset, exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
-    """How long a row's speeds are above yield, and where so in a share of the revolutions, with the scatter of the borders."""
+    """How long a row's speeds are dangerous, unknown and sustained, and where, with the scatter of the borders of the last."""
     columns: dict[str, Any] = {}
-    for length, parts in ranges_of(response, exceedance).items():
+    for length, parts in ranges_of(response).items():
         ranges = [part for part in parts if part.end >= within.begin and part.begin <= within.end]
         columns[length] = float(sum(min(part.end, within.end) - max(part.begin, within.begin) for part in ranges))
         name = length.removeprefix("length_").removesuffix("_rad_s")
-        share = {"most_revolutions": MOST_REVOLUTIONS, "some_revolutions": SOME_REVOLUTIONS}.get(name)
-        if ranges and share is not None:
+        if ranges and name != "unknown":
             begin, end = max(ranges[0].begin, within.begin), min(ranges[-1].end, within.end)
             columns[f"{name}_from_rad_s"], columns[f"{name}_to_rad_s"] = begin, end
-            columns[f"{name}_from_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[0], begins=True)
-            columns[f"{name}_to_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[-1], begins=False)
+        if ranges and name == "most_revolutions":
+            columns[f"{name}_from_scatter_rad_s"] = exceedance.scatter_of_border(MOST_REVOLUTIONS, ranges[0], begins=True)
+            columns[f"{name}_to_scatter_rad_s"] = exceedance.scatter_of_border(MOST_REVOLUTIONS, ranges[-1], begins=False)
     return columns
 
 

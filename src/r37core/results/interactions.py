@@ -16,9 +16,10 @@ from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
 from .closing import interaction_title
-from .columns import DROP_WITHIN, INTERACTIONS, above_yield, names
+from .columns import DROP_WITHIN, INTERACTIONS, names
 from .contact_ranges import ranges_without_peak, rows_above_yield
 from .datasets import response_of
+from .events import Danger
 from .exceedance import SpeedRange, exceedance_of, is_lined
 from .interaction import Interaction, interaction_row, range_columns
 from .interaction_choice import InteractionChoice
@@ -203,21 +204,19 @@ def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> 
 
 
 _OF = (
-    "length_most_revolutions_rad_s", "share_of_revolutions_above_yield", "most_revolutions_from_rad_s",
-    "most_revolutions_to_rad_s", "peak_motion_m",
+    "length_dangerous_rad_s", "length_unknown_rad_s", "dangerous_from_rad_s", "dangerous_to_rad_s", "peak_motion_m",
 )  # fmt: skip
 
 
 def sized(interactions: pd.DataFrame, rms: xr.Dataset) -> pd.DataFrame:
-    """The table with columns `frequency`, `size`, `unit`, `above` and `onward`.
+    """The table with columns `frequency`, `size`, `unit`, `danger` and `onward`.
 
-    `frequency` (Hz): of the engine order at the peak speed, NaN without one. `size`: length above yield in most revolutions
-    (rad/s); in a scene without stress the motion (mm); `unit`: which of these. `above`: columns.above_yield of the largest
-    share at any of the speeds. `onward`: whether the speeds above yield in most revolutions reach to an end of those that were
-    run, by `rms`.
+    `frequency` (Hz): of the engine order at the peak speed, NaN without one. `size`: length of the dangerous speeds
+    (rad/s); in a scene without stress the motion (mm); `unit`: which of these. `danger`: Danger of the worst of its
+    speeds in a word, empty without stress. `onward`: whether dangerous speeds reach to an end of those that were run, by `rms`.
     """
     table = interactions.reindex(columns=[*interactions.columns, *(name for name in _OF if name not in interactions)])
-    length, share, begin, end, motion = (table[name].astype(float) for name in _OF)
+    length, unknown, begin, end, motion = (table[name].astype(float) for name in _OF)
     stress = length.notna().groupby(table["scene"]).transform("any").astype(bool)
     ran = rms["speed"].where(rms["status"] != RunStatus.NOT_RUN)
     pairs = pd.MultiIndex.from_frame(table[["blade", "scene"]])
@@ -226,6 +225,6 @@ def sized(interactions: pd.DataFrame, rms: xr.Dataset) -> pd.DataFrame:
         frequency=table["engine_order"].astype(float) * table["peak_speed_rad_s"] / (2.0 * np.pi),
         size=length.where(stress, 1e3 * motion).fillna(0.0),
         unit=np.where(stress, "rad/s", "mm"),
-        above=share.map(above_yield),
+        danger=np.select([length > 0.0, unknown > 0.0, length.notna()], [each.text for each in reversed(Danger)], ""),
         onward=(begin <= first) | (end >= last),
     )

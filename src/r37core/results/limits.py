@@ -36,7 +36,6 @@ _LIMITS: dict[str, tuple[str | float, str]] = {
 """Variable of the runs -> its limit, with displacements of second order, or the variable that has it; the reason in words."""
 
 
-
 class Cause(Outcome):
     """Limit that a run leaves first."""
 
@@ -98,8 +97,8 @@ def reasons_beyond_limits(runs: Mapping[Any, Any]) -> list[str]:
 def first_revolutions_beyond(run: Mapping[str, np.ndarray]) -> dict[Cause, float]:
     """First revolution beyond each limit, by cause; infinite where there is none. `run`: arrays of its file.
 
-    Energy that is unaccounted for is so from the first revolution on, and so is every limit of a run without what it was in each
-    revolution. A mean power begins with its first revolution.
+    Energy that is unaccounted for is so from the first revolution on, and so is what is not known revolution by revolution. A
+    mean power begins with its first revolution.
     """
     firsts = dict.fromkeys(list(Cause)[1:], np.inf)
     for name, cause in CAUSES.items():

@@ -11,8 +11,8 @@ from r37core.base.io import readable
 from r37core.base.units import si_name
 from r37core.time_integration.status import RunStatus
 
-from .columns import CHANCE, ENDS, MOST_REVOLUTIONS, OPERATING, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
-from .danger import danger_of, moved_by_error
+from .columns import CHANCE, ENDS, LENGTHS, MOST_REVOLUTIONS, OPERATING, OVER_SCENES, ROBUSTNESS, names
+from .danger import danger_of, danger_ranges, grid_scatter, moved_by_error, ranges_of
 from .datasets import response_in_operation, response_of
 from .exceedance import DEVIATIONS, Exceedance, SpeedRange, exceedance_of
 from .measures import drop_after, has_strengths, lasts, motion, peak_of, ran
@@ -22,26 +22,20 @@ from .table_file import read_table
 MeasuresOfMembers = dict[tuple[str, str], dict[str, dict[str, float]]]
 """(blade, scene) -> member -> column of RANKED_BY -> value."""
 
-RANKED_BY = ("length_most_revolutions_rad_s", "length_some_revolutions_rad_s", "diverged_runs", "largest_median_stress_pa")
-"""Columns that blades are ordered by: less of the first is better, of the next where that is the same."""
+RANKED_BY = (*names(LENGTHS), "largest_stress_inside_pa")
+"""Columns that blades stand in the order of: less of the first first, of the next where that is the same."""
 
-_SHARES = (
-    ("most_revolutions", MOST_REVOLUTIONS, "max_von_mises_median"),
-    ("some_revolutions", SOME_REVOLUTIONS, "max_von_mises_high"),
-)
-"""Part of a column's name, share of the revolutions that it means, and the stress that tells how far an error moves it."""
+_BRACKET = RANKED_BY[:2]
+"""Columns of the bracket that blades are ranked by: from the first to the sum of both."""
 
 _RANKS = ("rank", "rank_lowest", "rank_highest")
-_TOLD_APART = RANKED_BY[:2]
-"""Columns that give another rank, where they differ by more than they are known within."""
+_WITHIN = "length_dangerous_within_rad_s"
 
 
-def operating_measures(
-    response: xr.Dataset, operating: OperatingRange, *, chance_scatter: bool = True, error: float = 0.0
-) -> dict[str, float]:
+def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chance_scatter: bool = True) -> dict[str, float]:
     """OPERATING of one blade in one scene; NaN without stress, and where the runs do not reach over the judged range.
 
-    `chance_scatter`: whether chance is drawn; `error`: as of `robustness`.
+    `chance_scatter`: whether chance is drawn.
     """
     measures = dict.fromkeys(names(OPERATING), np.nan)
     if "share_of_revolutions_above_yield" not in response:
@@ -49,10 +43,8 @@ def operating_measures(
     exceedance = exceedance_of(response)
     if not operating.is_covered(exceedance.speeds):
         return measures
-    measures["length_most_revolutions_operating_rad_s"] = operating.length(exceedance.ranges(MOST_REVOLUTIONS))
-    scatter = exceedance.scatter_of_length(MOST_REVOLUTIONS, operating.length, chance=chance_scatter)
-    moved = moved_by_error(response, "max_von_mises_median", error)
-    measures["length_most_revolutions_operating_within_rad_s"] = _known_within(exceedance, scatter, moved)
+    for name, ranges in ranges_of(response).items():
+        measures[name.replace("_rad_s", "_operating_rad_s")] = operating.length(ranges)
     measures["exceedance_integral_operating_rad_s"] = operating.integral(exceedance.speeds, exceedance.shares)
     if exceedance.chance and chance_scatter:
         measures["exceedance_integral_operating_scatter_rad_s"] = exceedance.scatter_of_integral(
@@ -73,7 +65,7 @@ def robustness(
     range whose operating_measures are among them; `error`: relative one of the stress, by mesh and step of the level.
     """
     response = ran(response)
-    inside = operating_measures(response, operating, chance_scatter=chance_scatter, error=error) if operating else {}
+    inside = operating_measures(response, operating, chance_scatter=chance_scatter) if operating else {}
     measures = dict.fromkeys(names(ROBUSTNESS), np.nan) | inside
     if not response.sizes["speed"]:
         return measures
@@ -87,12 +79,12 @@ def robustness(
     if "share_of_revolutions_above_yield" in response:
         measures |= danger_of(response)
         exceedance = exceedance_of(response)
-        for name, share, stress in _SHARES:
-            ranges = exceedance.ranges(share)
-            scatter = exceedance.scatter_of_length(share, chance=chance_scatter)
-            moved = moved_by_error(response, stress, error)
-            measures[f"length_{name}_scatter_rad_s"] = scatter
-            measures[f"length_{name}_within_rad_s"] = _known_within(exceedance, scatter, moved)
+        dangerous, sustained = danger_ranges(response)[0], exceedance.ranges(MOST_REVOLUTIONS)
+        measures["length_most_revolutions_scatter_rad_s"] = exceedance.scatter_of_length(
+            MOST_REVOLUTIONS, chance=chance_scatter
+        )
+        measures[_WITHIN] = _known_within(exceedance, grid_scatter(response), moved_by_error(response, error))
+        for name, ranges in (("dangerous", dangerous), ("most_revolutions", sustained)):
             measures[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
         measures["exceedance_integral_rad_s"] = exceedance.integral
         if chance_scatter:
@@ -101,10 +93,9 @@ def robustness(
             shares = response["share_of_revolutions_above_yield"].where(lasts(response), 0.0)
             lasting = exceedance_of(response.assign(share_of_revolutions_above_yield=shares))
             measures["length_lasting_rad_s"] = lasting.length(MOST_REVOLUTIONS)
-        above_yield = exceedance.ranges(MOST_REVOLUTIONS)
-        widest = max(above_yield, key=lambda above: above.length, default=SpeedRange(np.nan, np.nan, False))
+        widest = max(dangerous, key=lambda above: above.length, default=SpeedRange(np.nan, np.nan, False))
         measures["widest_range_rad_s"], measures["widest_range_from_rad_s"] = np.nan_to_num(widest.length), widest.begin
-        measures["ranges_most_revolutions"] = len(above_yield)
+        measures["ranges_dangerous"] = len(dangerous)
     if has_strengths(response):
         exceedance = exceedance_of(response, "share_of_revolutions_above_goodman")
         measures["length_goodman_rad_s"] = exceedance.length(MOST_REVOLUTIONS)
@@ -126,11 +117,11 @@ def measures_of(
     """
     measures = robustness(response_of(datasets, blade, scene), error=error)
     if operating:
-        measures |= operating_measures(response_in_operation(datasets, blade, scene), operating, error=error)
+        measures |= operating_measures(response_in_operation(datasets, blade, scene), operating)
     return measures
 
 
-def length_most_revolutions(response: xr.Dataset) -> float:
+def length_sustained(response: xr.Dataset) -> float:
     """Length (rad/s) of the speeds above yield in most revolutions; NaN of a response without stress."""
     if "share_of_revolutions_above_yield" not in response:
         return np.nan
@@ -185,20 +176,13 @@ def ranking_table(
 
 
 def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
-    """`rank`, `rank_lowest` and `rank_highest` of rows of one scene, by _TOLD_APART and what these are known within.
+    """`rank`, `rank_lowest` and `rank_highest` of rows of one scene, by their brackets and what these are known within.
 
-    One is surely better where the first of the columns that tells them apart is less, or with fewer runs that diverged. In the
-    order of `rank_lowest`, then RANKED_BY, those than which no other of a group is surely better share its rank.
+    One is surely better where its bracket ends below the other's. In the order of `rank_lowest`, then RANKED_BY, those than
+    which no other of a group is surely better share its rank.
     """
-    values = rows[[*_TOLD_APART, "diverged_runs"]].to_numpy(float)
-    accuracies = [name.replace("_rad_s", "_within_rad_s") for name in _TOLD_APART]
-    within = np.column_stack([rows[accuracies].fillna(np.inf), np.zeros(len(rows))])
-
-    def is_better(row: int, other: int) -> bool:
-        apart = np.flatnonzero(np.abs(values[row] - values[other]) > np.hypot(within[row], within[other]))
-        return bool(len(apart)) and bool(values[row, apart[0]] < values[other, apart[0]])
-
-    better = np.array([[is_better(row, other) for other in range(len(rows))] for row in range(len(rows))])
+    ends, within = np.cumsum(rows[list(_BRACKET)].to_numpy(float), axis=1), rows[_WITHIN].fillna(np.inf).to_numpy()
+    better = ends[None, :, 0] - ends[:, None, 1] > np.hypot(within[:, None], within)
     lowest, highest = 1 + better.sum(axis=0), len(rows) - better.sum(axis=1)
     order = np.lexsort([*rows[list(RANKED_BY)].fillna(np.inf).to_numpy().T[::-1], lowest])
     shared, group = np.empty(len(rows), int), order[:0]
@@ -214,10 +198,11 @@ def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
 def _overall(table: pd.DataFrame) -> pd.DataFrame:
     """OVER_SCENES of the rows of a ranking; NaN for a blade without a rank in some of the scenes."""
     ranked = table[table["rank"].notna()]
-    blades, by = ranked.groupby("blade"), RANKED_BY[0]
-    worst = ranked.loc[blades[by].idxmax()].set_index("blade")[blades.size() == ranked["scene"].nunique()]
+    ranked = ranked.assign(bracket_end=ranked[list(_BRACKET)].sum(axis=1))
+    blades = ranked.groupby("blade")
+    worst = ranked.loc[blades["bracket_end"].idxmax()].set_index("blade")[blades.size() == ranked["scene"].nunique()]
     ranks = pd.concat([ranks_of(rows)["rank"] for _, rows in worst.groupby("contact")]).reindex(worst.index)
-    columns = [ranks, blades["rank"].max(), blades[by].sum()]
+    columns = [ranks, blades["rank"].max(), blades[RANKED_BY[0]].sum()]
     overall = pd.concat(dict(zip(names(OVER_SCENES), columns, strict=True)), axis=1).reindex(worst.index)
     return overall.reindex(table["blade"]).set_axis(table.index)
 
@@ -248,11 +233,10 @@ def _member_columns(pair: tuple[str, str], members: MeasuresOfMembers, contacts:
 
 
 def chance_to_be_better(own: Mapping[str, Mapping[str, float]], others: Mapping[str, Mapping[str, float]]) -> float:
-    """Share of the common members, by name, in which `own` are better by RANKED_BY; equal ones count half; NaN without any."""
+    """Share of the common members, by name, in which the bracket of `own` ends below that of the other.
 
-    def key(measures: Mapping[str, float]) -> tuple[float, ...]:
-        return tuple(np.inf if np.isnan(measures[name]) else measures[name] for name in RANKED_BY)
-
-    pairs = [(key(own[name]), key(others[name])) for name in own if name in others]
-    wins = [0.5 * ((ours < theirs) + (ours <= theirs)) for ours, theirs in pairs]
+    Brackets that overlap count half; NaN without any.
+    """
+    pairs = [[np.cumsum([each[name][of] for of in _BRACKET]) for each in (own, others)] for name in own if name in others]
+    wins = [0.5 * (1.0 + (ours[1] < theirs[0]) - (theirs[1] < ours[0])) for ours, theirs in pairs]
     return float(np.mean(wins)) if wins else np.nan

@@ -49,6 +49,7 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
     """The variables of one speed, and the coordinates that they need."""
     sizes = sizes_of(run)
     values = {**run, **exit_of(run)}
+    left = float(values["exit_revolution"])
     values |= {name: np.arange(1, sizes[name] + 1) for name in COUNTED if name in sizes}
     if "wear" in run:
         values["angle"] = np.arange(sizes["angle"]) * 2.0 * np.pi / sizes["angle"]
@@ -59,11 +60,11 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
         history = run["revolution_von_mises"]
         values |= stress_statistic(in_statistic(run, history), yield_stress)
         values["max_von_mises_ever"] = np.where(run["status"], np.nan, np.fmax.reduce(history, axis=1))
-        values |= yield_events(run, yield_stress, values["exit_revolution"])
+        values |= yield_events(run, yield_stress, left)
     if "alternating_stress" in run:
         values |= goodman_statistic(run, strengths)
         if strengths.are_known:
-            values |= goodman_events(run, strengths, values["exit_revolution"])
+            values |= goodman_events(run, strengths, left)
     return values
 
 

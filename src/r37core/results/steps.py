@@ -22,7 +22,7 @@ from .columns import IN_REGION
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
 from .operating_range import OperatingRange
-from .ranking import length_most_revolutions, measures_of, measures_of_members, ranking_table
+from .ranking import length_sustained, measures_of, measures_of_members, ranking_table
 from .regions import other_regions
 from .response import write_response
 from .table_file import write_table
@@ -103,7 +103,7 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     for region in other_regions(datasets["stress"]) if "stress" in datasets else []:
         for blade, scene in params.runs:
             response = response_of(datasets, blade, scene, region)
-            measures[blade, scene][IN_REGION.format(region)] = length_most_revolutions(response)
+            measures[blade, scene][IN_REGION.format(region)] = length_sustained(response)
     write_table(added(ranking_table(measures, members, params.contacts)), output.table, digits=6)
 
 

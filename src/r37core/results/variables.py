@@ -12,9 +12,7 @@ from .events import OF_EXIT, OF_GOODMAN, OF_YIELD
 _REGION = ("region",)
 _OF_REVOLUTIONS = "largest von Mises stress of each of the later revolutions"
 
-_MOTION = (
-    of_run.SIZES | OF_EXIT | of_run.MOTION
-)
+_MOTION = of_run.SIZES | OF_EXIT | of_run.MOTION
 
 _STRESS = {
     **of_run.LAST_STRESS,
@@ -59,7 +57,7 @@ OF_ALL_SPEEDS = {**of_run.OF_SCENE, **of_run.OF_LINING, **of_run.OF_CASING, **OF
 HISTORIES = {
     "max_von_mises_history": Variable(
         ("history_speed", "region", "revolution"), "Pa", "largest von Mises stress of each revolution", "f4"
-    ),
+    )
 }
 """Variables of the speeds with a stress history."""
 

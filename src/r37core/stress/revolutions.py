@@ -106,10 +106,11 @@ def stress_cycles(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Alternating stress (Pa), shape (revolutions, nodes), and mean stress (Pa), shape (nodes,); arguments as above.
 
-    Alternating: largest von Mises stress of the tensor less its mean over the `later` revolutions, in each revolution. With the mean it does not
-    depend on the axes, and is at least the radius of the smallest sphere about the path of the tensor: of a wave whose halves
-    differ it is more than half of the range. Mean: sum of the mean normal stresses, negative in compression. All nodes at all
-    instants, in single precision: stress is linear, so the mean is that of the states, and rotation changes it alone.
+    Alternating: largest von Mises stress of the tensor less its mean over the `later` revolutions, in each revolution. With the
+    mean it does not depend on the axes, and is at least the radius of the smallest sphere about the path of the tensor: of a
+    wave whose halves differ it is more than half of the range. Mean: sum of the mean normal stresses, negative in compression.
+    All nodes at all instants, in single precision: stress is linear, so the mean is that of the states, and rotation changes it
+    alone.
     """
     states, shapes = stress.band_part(states, shapes)
     mean_state = states[-later * per_revolution :].mean(axis=0)

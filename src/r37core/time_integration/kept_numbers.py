@@ -91,9 +91,9 @@ def snapshot_numbers(
 def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: bool) -> tuple[np.ndarray, np.ndarray]:
     """Largest stress (Pa) of each blade in each revolution with snapshots, NaN where it ended, and its node in the operator.
 
-    Both by region, shape (regions, blades, revolutions); of regions that do not decide in those of the statistic. Blades with as many stepped modes are looked at together: their modes
-    have the same shapes, and what follows a force at once is in proportion to the flexibility, 1/factor^2 for a factor of the
-    frequencies.
+    Both by region, shape (regions, blades, revolutions); of regions that do not decide in those of the statistic. Blades with
+    as many stepped modes are looked at together: their modes have the same shapes, and what follows a force at once is in
+    proportion to the flexibility, 1/factor^2 for a factor of the frequencies.
     """
     problems, records, factors = run.problems, run.records, run.frequency_factors
     choice, per_revolution = problems[0].choice, problems[0].choice.snapshots_per_revolution

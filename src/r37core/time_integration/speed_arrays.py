@@ -160,10 +160,14 @@ _IN_FILE = {
     "diverged_time": _number("s", "time at which the run diverged"),
     "statistic_end": _number("1", "last of the later revolutions"),
     "statistic_revolutions": _number("1", "number of the later revolutions"),
-    "revolution_share_of_height": Variable(_SO_FAR, "1", "largest displacement of the tip in each revolution over the blade's height"),
+    "revolution_share_of_height": Variable(
+        _SO_FAR, "1", "largest displacement of the tip in each revolution over the blade's height"
+    ),
     "force_so_far": Variable(_SO_FAR, "N", "largest normal force on a tip node until the end of each revolution"),
     "heat_so_far": Variable(_SO_FAR, "J", "work of the friction until the end of each revolution"),
-    "bounded_so_far": Variable(_SO_FAR, "1", "steps in which the bound on the elastic energy acts until the end of each revolution"),
+    "bounded_so_far": Variable(
+        _SO_FAR, "1", "steps in which the bound on the elastic energy acts until the end of each revolution"
+    ),
     "revolution_rms": Variable(("done_revolution",), "m", f"rms of {_LEADING_EDGE} in each revolution until the end"),
     "region": Variable(_REGION, "1", "name of the region", "str"),
     "revolution_von_mises": Variable(("region", "recorded_revolution"), "Pa", _HISTORY),

@@ -85,8 +85,8 @@ _TIE_BREAKERS = {"largest_goodman_share": "share of the Goodman line", "largest_
 
 
 def length_column(table: pd.DataFrame) -> str:
-    """Column of the length above yield in most revolutions: in operation, where it is known there."""
-    inside = "length_most_revolutions_operating_rad_s"
+    """Column of the length of the dangerous speeds: in operation, where it is known there."""
+    inside = "length_dangerous_operating_rad_s"
     return inside if inside in table and table[inside].notna().any() else RANKED_BY[0]
 
 

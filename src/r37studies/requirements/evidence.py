@@ -18,11 +18,10 @@ JUDGED = (
     "status",
     "diverged_revolution",
     "motion_at_end",
-    "share_of_revolutions_above_yield",
-    "max_von_mises_median",
-    "max_von_mises_of_run",
+    "max_von_mises_inside",
     "stress_drift",
-    "goodman_share",
+    "goodman_share_inside",
+    "exit_revolution",
     "used_thickness",
     "worn_through_share",
     "share_of_time_in_contact",
@@ -33,7 +32,7 @@ JUDGED = (
 OF_ALL = ("lined", "yield_stress", "static_stress", "fatigue_strength")
 """Variables that are the same at all speeds."""
 
-SCALED = ("max_von_mises_median", "goodman_share", "used_thickness")
+SCALED = ("max_von_mises_inside", "goodman_share_inside", "used_thickness")
 """Variables that an error of mesh and step scales."""
 
 SHOWN = 0.9
@@ -147,12 +146,7 @@ class Evidence:
     def scaled(self, factor: float | xr.DataArray) -> Self:
         """The evidence with stress, share of the Goodman line and used lining times a `factor`, or one of each speed."""
         runs = self.response
-        changed = {name: factor * runs[name] for name in SCALED if name in runs}
-        if "max_von_mises_median" in changed:
-            share, above = runs["share_of_revolutions_above_yield"], changed["max_von_mises_median"] > runs["yield_stress"]
-            # the share itself is that of yield, so only which side of it most revolutions lie on is known
-            changed["share_of_revolutions_above_yield"] = xr.where(above, np.maximum(share, 1.0), np.minimum(share, 0.0))
-        return self.replaced(runs.assign(changed))
+        return self.replaced(runs.assign({name: factor * runs[name] for name in SCALED if name in runs}))
 
 
 def reach(evidence: Evidence, near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -254,4 +248,6 @@ def worst_of(motions: xr.Dataset) -> xr.Dataset:
         return kept
     status = kept["status"]
     diverged = (status == RunStatus.DIVERGED).any("motion")
+    if "exit_revolution" in kept:
+        kept = kept.assign(exit_revolution=kept["exit_revolution"].min("motion").broadcast_like(status))
     return kept.max("motion").assign(status=xr.where(diverged, RunStatus.DIVERGED, status.min("motion")))

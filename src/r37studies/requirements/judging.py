@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from r37core.results.columns import MOST_REVOLUTIONS, SOME, above_yield
+from r37core.results.danger import danger_ranges, grid_scatter
 from r37core.results.datasets import overlaid
-from r37core.results.exceedance import DEVIATIONS, SpeedRange, exceedance_of, is_lined, ranges_above
+from r37core.results.exceedance import DEVIATIONS, SpeedRange, is_lined, ranges_above
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
 from r37core.results.other_motions import swept
@@ -139,10 +139,10 @@ def closeness(requirements: Requirements, evidence: Evidence) -> np.ndarray:
 def _shares_of_limits(requirements: Requirements, evidence: Evidence) -> np.ndarray:
     """Stress and wear of each run as a share of each limit, shape (limits + 1, speeds); the first row is 0."""
     runs, shares = evidence.response, [np.zeros(evidence.response.sizes["speed"])]
-    if requirements.above_yield is not None and "max_von_mises_median" in runs:
-        shares.append((runs["max_von_mises_median"] / runs["yield_stress"]).values)
-    if requirements.goodman_share is not None and "goodman_share" in runs:
-        shares.append(runs["goodman_share"].values / requirements.goodman_share)
+    if requirements.above_yield is not None and "max_von_mises_inside" in runs:
+        shares.append((runs["max_von_mises_inside"] / runs["yield_stress"]).values)
+    if requirements.goodman_share is not None and "goodman_share_inside" in runs:
+        shares.append(runs["goodman_share_inside"].values / requirements.goodman_share)
     if requirements.used_lining is not None and "used_thickness" in runs:
         shares.append(runs["used_thickness"].values / evidence.thickness / requirements.used_lining)
     return np.nan_to_num(np.array(shares))
@@ -243,9 +243,7 @@ def _judged_by_runs(
         kept = [trial.name for trial in table if trial.value <= limit and not trial.is_motion]
         doubts = [f"meets {' and '.join(kept)}" if kept else ""]
         response = evidence.response
-        ranges = (
-            exceedance_of(response).ranges(MOST_REVOLUTIONS) if is_length else ranges_above(response["speed"].values, near, 1.0)
-        )
+        ranges = danger_ranges(response)[0] if is_length else ranges_above(response["speed"].values, near, 1.0)
         notes += [f"over {operating.length(ranges):.3g} of {width:.4g} rad/s", *beyond_model(evidence)]
     else:
         failing = {trial.name: trial.value for trial in table if trial.value > limit}
@@ -302,7 +300,7 @@ def _left_out(only: Requirements, evidence: Evidence, note: str) -> list[str]:
 
 
 def _trials(evidence: Evidence) -> list[Trial]:
-    """Runs with another damping, rise, friction, step or mesh, as they drift on, before they settle, and in other motions.
+    """Runs with another damping, rise, friction, step or mesh, as they drift on, and in other motions.
 
     The motion from rest stands in for another where that does not reach over the operating range.
     """
@@ -314,10 +312,6 @@ def _trials(evidence: Evidence) -> list[Trial]:
     ]
     if "stress_drift" in runs and (runs["stress_drift"] > 0.0).any():
         trials.append(Trial("as it drifts on", evidence.scaled(1.0 + runs["stress_drift"].clip(min=0.0).fillna(0.0))))
-    if "max_von_mises_ever" in runs:
-        share = runs["share_of_revolutions_above_yield"].where(~(runs["max_von_mises_ever"] > runs["yield_stress"]), 1.0)
-        ever = runs.assign(share_of_revolutions_above_yield=share)
-        trials.append(Trial("before it settles", evidence.replaced(ever)))
     motions = {name: motion for name, motion in looks.items() if name.startswith((UP, DOWN, RUN_UP, RUN_DOWN))}
     if evidence.motions is not None and (worst := worst_of(swept(evidence.motions))).sizes["speed"]:
         motions["in the worst motion"] = extended(runs, worst)
@@ -378,31 +372,35 @@ def _not_known(evidence: Evidence, name: str, result: str) -> str:
 
 def _above_yield(evidence: Evidence) -> Columns:
     operating, response = evidence.operating, evidence.response
-    if reason := _not_known(evidence, "share_of_revolutions_above_yield", "stress"):
+    if reason := _not_known(evidence, "max_von_mises_inside", "stress"):
         return {"note": reason}
-    exceedance = exceedance_of(response)
-    inside = [part for part in exceedance.ranges(MOST_REVOLUTIONS) if operating.overlap(part.begin, part.end) > 0.0]
+    dangerous, unknown = danger_ranges(response)
+    inside = [part for part in dangerous if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
     has_rotation = bool(response.get("static_stress", 0.0))
-    operates = (exceedance.speeds >= operating.first) & (exceedance.speeds <= operating.last)
-    share = float(np.max(exceedance.shares, where=operates, initial=0.0))
-    some = f"above yield in up to {share:.2g} of the revolutions" if above_yield(share) == SOME else ""
-    notes = [evidence.divergence, "" if has_rotation else VIBRATION_ALONE, some]
+    left = operating.length(unknown)
+    notes = [
+        evidence.divergence,
+        "" if has_rotation else VIBRATION_ALONE,
+        f"over {left:.4g} rad/s the model is left before yield is passed" if left else "",
+    ]
     return {
         "value": operating.length(inside),
         "from_rad_s": max(widest.begin, operating.first),
         "to_rad_s": min(widest.end, operating.last),
-        "scatter": exceedance.scatter_of_length(MOST_REVOLUTIONS, operating.length),
+        "scatter": grid_scatter(response, operating.length),
         "note": "; ".join(filter(None, notes)),
     }
 
 
 def _goodman_share(evidence: Evidence) -> Columns:
-    if "goodman_share" in evidence.response and not has_strengths(evidence.response):
+    if "goodman_share_inside" in evidence.response and not has_strengths(evidence.response):
         return {"note": "the material has no strengths"}
-    if reason := _not_known(evidence, "goodman_share", "fatigue"):
+    if reason := _not_known(evidence, "goodman_share_inside", "fatigue"):
         return {"note": reason}
-    share, speed = evidence.worst(np.where(evidence.diverged, np.inf, evidence.response["goodman_share"].values))
+    left = np.isfinite(evidence.response["exit_revolution"].values)
+    inside = evidence.response["goodman_share_inside"].values
+    share, speed = evidence.worst(np.where(evidence.diverged & ~left, np.inf, inside))
     if not np.isfinite(share):
         return _diverged(evidence, speed)
     return _worst_at(share, speed)

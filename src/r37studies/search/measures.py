@@ -1,8 +1,9 @@
 """Measures of a design that objectives and constraints of a search can name."""
 
 MINIMISED = (
-    "length_most_revolutions_rad_s", "length_some_revolutions_rad_s", "largest_median_stress_pa", "largest_goodman_share",
-    "exceedance_integral_rad_s", "goodman_integral_rad_s", "widest_range_rad_s", "largest_rms_m", "diverged_runs",
+    "length_dangerous_rad_s", "length_unknown_rad_s", "length_most_revolutions_rad_s", "largest_median_stress_pa",
+    "largest_stress_inside_pa", "largest_goodman_share", "exceedance_integral_rad_s", "goodman_integral_rad_s",
+    "widest_range_rad_s", "largest_rms_m", "diverged_runs", "length_dangerous_operating_rad_s",
     "length_most_revolutions_operating_rad_s", "exceedance_integral_operating_rad_s", "goodman_integral_operating_rad_s",
 )  # fmt: skip
 """Columns of ranking.csv that searches can minimise."""

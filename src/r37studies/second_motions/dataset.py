@@ -20,6 +20,8 @@ from .states import SweptStates, levels_of
 _JOINED = (
     *(f"{kind}_{direction}" for kind in ("rms", "peak") for direction in ("normal", "radial", "tangential")),
     *(f"max_von_mises_{name}" for name in ("ever", "median", "high")),
+    "max_von_mises_inside",
+    "exit_revolution",
     "share_of_revolutions_above_yield",
     "max_wear",
     "used_thickness",

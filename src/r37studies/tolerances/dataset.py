@@ -12,6 +12,7 @@ from r37core.base.units import RPM, si_name
 from r37core.base.variable import Variable, about
 from r37core.results.columns import ENDS
 from r37core.results.danger import ratio_to_yield
+from r37core.results.events import OF_EXIT, OF_YIELD
 from r37core.results.measures import leading_edge, peak_of
 from r37core.results.ranking import RANKED_BY, robustness
 from r37core.results.regions import read_judged
@@ -24,25 +25,25 @@ QUANTILES = tuple(ENDS.values())
 """Ends and middle of the range that nine tenths of the members lie in."""
 
 _CURVES = ("rms_normal", "rms_tangential", "max_von_mises_ever")
-_JUDGED = ("share_of_revolutions_above_yield", "goodman_share")
+_JUDGED = ("share_of_revolutions_above_yield", *OF_YIELD, *OF_EXIT, "goodman_share", "goodman_share_inside")
 _OF_ALL = ("yield_stress", "static_stress", "fatigue_strength", "lined")
 
 MEASURES = {
     "peak_speed": Variable((), "rad s-1", "speed of the leading edge's largest motion"),
     "largest_stress": Variable((), "Pa", "largest von Mises stress over all speeds"),
-    "length_most_revolutions": Variable((), "rad s-1", "length of the speeds above yield in most revolutions"),
-    "length_some_revolutions": Variable((), "rad s-1", "length of the speeds above yield in some revolutions"),
-    "length_ever": Variable((), "rad s-1", "length of the speeds above yield in any judged revolution"),
+    "length_dangerous": Variable((), "rad s-1", "length of the dangerous speeds"),
+    "length_unknown": Variable((), "rad s-1", "length of the unknown speeds"),
+    "length_most_revolutions": Variable((), "rad s-1", "length of the speeds above yield in most of the later revolutions"),
     "diverged_runs": Variable((), "1", "runs that diverged"),
-    "largest_median_stress": Variable((), "Pa", "largest over all speeds of the median over the revolutions"),
+    "largest_stress_inside": Variable((), "Pa", "largest von Mises stress over all speeds before the model's limits are left"),
     "largest_goodman_share": Variable((), "1", "largest share of the Goodman line over all speeds"),
 }
 """Measures of each member over all its speeds; all but the first need the stress."""
 
-_MORE = ("length_ever_rad_s", "largest_stress_pa", "largest_goodman_share")
+_MORE = ("diverged_runs", "largest_stress_pa", "largest_goodman_share")
 """Columns of a ranking that are MEASURES beside RANKED_BY."""
 
-INDEXED = ("peak_speed", "length_ever", "largest_stress")
+INDEXED = ("peak_speed", "length_dangerous", "largest_stress")
 """Measures for which the numbers are ranked."""
 
 

@@ -15,7 +15,7 @@ from r37core.results.measures import leading_edge
 from .number_ranks import CONFIDENCE
 
 _CHANCE = "probability_above_yield"
-_MEASURES = {"peak_speed": "peak speed", "length_ever": "length ever above yield", "largest_stress": "largest stress"}
+_MEASURES = {"peak_speed": "peak speed", "length_dangerous": "length of dangerous speeds", "largest_stress": "largest stress"}
 
 
 def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> Figure:

@@ -8,7 +8,7 @@ from r37core.base.io import readable
 from r37core.results.columns import INTERACTIONS, Column, names
 from r37core.results.table_file import read_table
 
-_WITH_RANGE = ("peak_speed_rad_s", "length_most_revolutions_rad_s", "length_ever_rad_s", "largest_stress_pa")
+_WITH_RANGE = ("peak_speed_rad_s", "length_dangerous_rad_s", "length_most_revolutions_rad_s", "largest_stress_inside_pa")
 RANGED = tuple(column for name in _WITH_RANGE for column in INTERACTIONS if column.name == name)
 """Columns of summary.csv to which a range over the members is added."""
 
