@@ -23,6 +23,8 @@ span = partial(SpeedRange, truncated=False)
 
 SPEEDS = np.arange(900.0, 1001.0, 10.0)
 
+SOME = 0.05
+
 
 def drawn(chance, speeds, revolutions=100, seed=0):
     """Shares of so many revolutions above yield, where each is so with a known chance."""
@@ -70,7 +72,7 @@ def test_borders_are_found_again_within_their_scatter(step):
     speeds = np.arange(900.0, 1400.1, step)
     for seed in range(4):
         found = Exceedance(speeds, drawn(rising(speeds), speeds, seed=seed), chance=True)
-        (certain,), (possible,) = found.ranges(MOST_REVOLUTIONS), found.ranges(SOME_REVOLUTIONS)
+        (certain,), (possible,) = found.ranges(MOST_REVOLUTIONS), found.ranges(SOME)
         scatter = found.scatter_of_border(MOST_REVOLUTIONS, certain, begins=True)
         assert abs(certain.begin - 1050.0) < max(4.0 * scatter, 2.0)
         assert 0.0 < scatter < 3.0 + 1.5 * step
@@ -108,9 +110,9 @@ def test_a_share_of_none_or_all_revolutions_is_smoothed_with_what_chance_may_giv
     found = Exceedance(speeds, above.astype(float), chance=True)
     assert found.length(MOST_REVOLUTIONS) == pytest.approx(85.0)
     # a line between the speeds of a border is above a twentieth for 0.45 of 5 rad/s more
-    assert found.length(SOME_REVOLUTIONS) == pytest.approx(85.0 + 4.0 * 0.45 * 5.0)
+    assert found.length(SOME) == pytest.approx(85.0 + 4.0 * 0.45 * 5.0)
     # without chance, and with four borders of which each lies anywhere between two speeds
-    for share in (MOST_REVOLUTIONS):
+    for share in MOST_REVOLUTIONS:
         assert np.std([length_of(ranges) for ranges in found.ranges_drawn[share]]) == 0.0
         assert found.scatter_of_length(share) == pytest.approx(np.sqrt(4.0 * 5.0**2 / 12.0))
 
@@ -148,12 +150,12 @@ def test_a_border_that_chance_makes_or_the_speeds_cut_has_no_scatter():
     shares = np.where(speeds > 1200.0, 0.9, 0.01)
     shares[5] = 0.3
     found = Exceedance(speeds, shares, chance=True)
-    small, large = found.ranges(SOME_REVOLUTIONS)
-    assert not found.scatter_of_border(SOME_REVOLUTIONS, small, begins=True) > 60.0
-    assert 0.0 < found.scatter_of_border(SOME_REVOLUTIONS, large, begins=True) < 30.0
-    assert np.isnan(found.scatter_of_border(SOME_REVOLUTIONS, large, begins=False))
+    small, large = found.ranges(SOME)
+    assert not found.scatter_of_border(SOME, small, begins=True) > 60.0
+    assert 0.0 < found.scatter_of_border(SOME, large, begins=True) < 30.0
+    assert np.isnan(found.scatter_of_border(SOME, large, begins=False))
     from_the_first = Exceedance(speeds, shares[::-1], chance=True)
-    assert np.isnan(from_the_first.scatter_of_border(SOME_REVOLUTIONS, from_the_first.ranges(SOME_REVOLUTIONS)[0], begins=True))
+    assert np.isnan(from_the_first.scatter_of_border(SOME, from_the_first.ranges(SOME)[0], begins=True))
 
 
 def response(speeds, shares, motion=None, *, lined=0, ever=None, status=None, tangential=None):
@@ -195,7 +197,7 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     shares[20], ever = 0.09, 1e9 * (0.5 + shares)
     ever[40] = 1.1e9
     rows = rows_of(response(speeds, shares, ever=ever), [])
-    for speed in speeds[(shares > SOME_REVOLUTIONS) | (ever > 1e9)]:
+    for speed in speeds[(shares > SOME) | (ever > 1e9)]:
         assert any(every["some_revolutions_from_rad_s"] <= speed <= every["some_revolutions_to_rad_s"] for every in rows), speed
     assert [every["length_most_revolutions_rad_s"] > 0.0 for every in rows] == [False, False, True]
     assert np.isnan(rows[0]["some_revolutions_from_scatter_rad_s"])

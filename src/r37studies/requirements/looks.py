@@ -115,11 +115,10 @@ class JudgedBlade(BladeRuns):
         is_near = distance <= np.maximum(distance.min(axis=1, keepdims=True), 0.5 * CARRIED_STEP)
         values = {
             to: np.max(np.where(is_near, numbers[name], -np.inf), axis=1)
-            for to, name in (("max_von_mises_median", "max_von_mises"), ("goodman_share", "goodman_share"))
+            for to, name in (("max_von_mises_inside", "max_von_mises"), ("goodman_share_inside", "goodman_share"))
             if name in numbers
         }
-        if "max_von_mises_median" in values:
-            values["share_of_revolutions_above_yield"] = 1.0 * (values["max_von_mises_median"] > self.yield_stress)
+        values["exit_revolution"] = np.full(len(speeds), np.nan)
         same = {name: numbers[name] for name in ("status", "largest_normal_force")}
         if scene.lining:
             worn = wear_numbers(integration.state.wear, 1, scene.lining, np.zeros(1))
