@@ -19,15 +19,18 @@ import xarray as xr
 from r37core.base.dataset_file import dataset_of
 from r37core.contact.scene import Scene
 from r37core.results.datasets import overlaid
+from r37core.results.events import exit_of
+from r37core.results.limits import OF_LIMITS
 from r37core.results.response import run_row
 from r37core.results.variables import AXES, OF_ALL_SPEEDS, VARIABLES
+from r37core.rom.quadratic_terms import PATH_ERROR
 from r37core.stress.operator import judged_operator
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
-from r37core.time_integration.kept_numbers import wear_numbers
+from r37core.time_integration.kept_numbers import melting_power, so_far, wear_numbers
 from r37core.time_integration.settling import remaining_drift, window_of
-from r37core.time_integration.simulate import TIP_POINTS
+from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 from r37studies.blade_runs import BladeRuns
 from r37studies.run_up_integration import RunUpIntegration
@@ -36,7 +39,7 @@ from r37studies.run_up_schedule import RunUp
 
 from . import judging
 from .choice import BRIEF, CARRIED_STEP, FOLLOWED, LEAST_STEP, LONGEST, MOST_NEAR, NEAR, STEP, Requirements, run_up_lengths
-from .evidence import HALF_FRICTION, OF_ALL, SCALED, Evidence, peak_reach, soonest_divergence
+from .evidence import HALF_FRICTION, OF_ALL, Evidence, peak_reach, soonest_divergence
 
 _MOST_PEAKS = 12
 """Peaks, the highest, about which speeds refine."""
@@ -75,16 +78,10 @@ class JudgedBlade(BladeRuns):
         return self.scene.rising_over(self.choice.length_of_rise_fraction)
 
     def runs_from_rest(
-        self, speeds: Iterable[float], scene: Scene | None = None, *, is_whole: bool = False, **changes: Any
+        self, speeds: Iterable[float], scene: Scene | None = None, **changes: Any
     ) -> xr.Dataset:
-        """Runs from rest at speeds (rad/s), in another scene if it is given, with changes of the long choice.
-
-        `is_whole`: whether a run that is not followed goes on after it has settled.
-        """
-        of, choice = (
-            scene or self.rising_scene,
-            replace(self.long_choice, until_settled=self.follows or not is_whole, **changes),
-        )
+        """Runs from rest at speeds (rad/s), in another scene if it is given, with changes of the long choice."""
+        of, choice = scene or self.rising_scene, replace(self.long_choice, **changes)
         runs = {speed: partial(self.numbers_at, of, choice, speed) for speed in speeds}
         return self._dataset({speed: self.parts.file(speed, (of, choice), run) for speed, run in runs.items()})
 
@@ -111,20 +108,39 @@ class JudgedBlade(BladeRuns):
             yield_stress=self.yield_stress,
             strengths=self.strengths,
         )
+        limited = self._limited(integration, numbers)
+        exit_revolution = exit_of(limited)["exit_revolution"]
         distance = np.abs(np.subtract.outer(speeds, numbers["speed"]))
         is_near = distance <= np.maximum(distance.min(axis=1, keepdims=True), 0.5 * CARRIED_STEP)
+        is_inside = ~(np.arange(len(numbers["speed"])) + 1 >= exit_revolution)
         values = {
-            to: np.max(np.where(is_near, numbers[name], -np.inf), axis=1)
-            for to, name in (("max_von_mises_inside", "max_von_mises"), ("goodman_share_inside", "goodman_share"))
+            f"{name}_inside": np.max(np.where(is_near & is_inside, numbers[name], 0.0), axis=1)
+            for name in ("max_von_mises", "goodman_share")
             if name in numbers
         }
-        values["exit_revolution"] = np.full(len(speeds), np.nan)
-        same = {name: numbers[name] for name in ("status", "largest_normal_force")}
+        values["exit_revolution"] = np.where((is_near & ~is_inside).any(axis=1), exit_revolution, np.nan)
+        same = {"status": numbers["status"]} | {name: limited[name] for name in OF_LIMITS if name in limited}
         if scene.lining:
             worn = wear_numbers(integration.state.wear, 1, scene.lining, np.zeros(1))
             same |= {name: worn[name] for name in ("used_thickness", "worn_through_share")}
         values |= {name: np.full(len(speeds), value) for name, value in same.items()}
         return xr.Dataset({name: ("speed", each) for name, each in values.items()}, {"speed": speeds})
+
+    def _limited(self, integration: RunUpIntegration, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
+        """Arrays of a run-up that the model's limits are of, but the power of the friction: its heat counts from the start."""
+        state, quadratic = integration.state, self.model.quadratic
+        per_revolution, count = self.choice.samples_per_revolution, len(numbers["speed"])
+        run = so_far(state, per_revolution, count) | {
+            "largest_normal_force": state.totals["largest_force"],
+            "bounded_share_of_time": state.totals["steps_bounded"],
+            "friction_heat": state.totals["friction_heat"],
+            "melting_power": melting_power(self.model),
+        }
+        if quadratic is not None:
+            reached = np.max([numbers[f"maximum_{direction}"].max(axis=1) for direction in DIRECTIONS], axis=0) / quadratic.height
+            run |= {"revolution_share_of_height": reached, "peak_share_of_height": reached.max(initial=0.0)}
+            run["share_of_height_limit"] = quadratic.share_within(PATH_ERROR * self.scene.casing.clearance)
+        return run
 
     def _row(self, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
         row = run_row(numbers, self.yield_stress, self.strengths)
@@ -207,15 +223,13 @@ def _followed(
 ) -> xr.Dataset:
     """Runs at speeds (rad/s); those whose motion grows last up to FOLLOWED revolutions.
 
-    At most MOST_NEAR of them do, those nearest to a limit. They have the larger stress and wear of both lengths. `followed`: 1
-    for them, 0 for others.
+    At most MOST_NEAR of them do, those nearest to a limit. `followed`: 1 for them, 0 for others.
     """
     runs = run(blade, speeds)
     runs = runs.assign(followed=("speed", np.zeros(runs.sizes["speed"])))
     if not len(grows := judging.growing(requirements, evidence.replaced(runs))[:MOST_NEAR]):
         return runs
     longer = run(replace(blade, follows=True), np.sort(grows).tolist())
-    longer = longer.assign({name: np.fmax(runs[name], longer[name]) for name in SCALED if name in longer})
     return overlaid(runs, longer.assign(followed=("speed", np.ones(longer.sizes["speed"]))))
 
 
@@ -241,8 +255,7 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
         changes[look] = replace(scene, casing=replace(scene.casing, rise_revolutions=revolutions))
     for look, changed in changes.items():
         if changed != scene and speeds:
-            # what grows slowly may pass its largest motion before the end: the later half of the run counts
-            run = partial(JudgedBlade.runs_from_rest, scene=changed, is_whole=look == judging.SLOWEST_RISE)
+            run = partial(JudgedBlade.runs_from_rest, scene=changed)
             tried = speeds
             if near.max() >= 1.0 and not requirements.above_yield:
                 alone = (judging.nearness(requirements, runs.replaced(run(blade, [speed]))).max() for speed in speeds)
