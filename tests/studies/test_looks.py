@@ -124,15 +124,13 @@ def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_b
         scenes[look] = replace(rising, friction=replace(friction, coefficient=factor * friction.coefficient))
     for look, revolutions in rises.items():
         scenes[look] = replace(rising, casing=replace(casing, rise_revolutions=revolutions))
-    changes = {HALF_STEP: {"time_step": 0.5 * CHOICE.time_step}, SLOWEST_RISE: {"until_settled": False}}
+    changes = {HALF_STEP: {"time_step": 0.5 * CHOICE.time_step}}
     lengths = set()
     used = {}
     for name, scene in scenes.items():
         run = found[name].sel(speed=1305.0)
-        choice = replace(CHOICE, revolutions=20, **({"until_settled": True} | changes.get(name, {})))
-        if run["followed"]:
-            # a motion that grows
-            choice = replace(choice, revolutions=48, until_settled=True)
+        # a motion that grows is followed
+        choice = replace(CHOICE, revolutions=48 if run["followed"] else 20, until_settled=True, **changes.get(name, {}))
         lengths.add(choice.revolutions)
         row = run_row(run_speed(contact, 1305.0, scene, choice, RESULTS, **KEPT), 1e9, UNKNOWN)
         used[name] = run["used_thickness"].item()
@@ -189,7 +187,7 @@ def test_a_run_up_has_the_largest_stress_about_each_speed(contact, model, steel,
     for speed in speeds:
         away = (revolutions["speed"] - speed).abs()
         about = revolutions[away <= max(2.5, away.min())]["max_von_mises"]
-        assert runs["max_von_mises_median"].sel(speed=speed) == about.max()
+        assert runs["max_von_mises_inside"].sel(speed=speed) == about.max()
     assert runs["used_thickness"].min() == runs["used_thickness"].max() > expected["max_wear"][-1] > 0.0
 
 

@@ -212,6 +212,11 @@ def energy_balance(work: float, loss: float, change: float, stiffness_work: floa
     }
 
 
+def melting_power(model: ContactModel) -> float:
+    """Power of the friction (W) whose share of the tip melts it in a second."""
+    return float(MELTING * model.tip_lengths.sum())
+
+
 def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, Any]:
     """Numbers that the model's limits are of (results.limits), from the `totals` of each blade, shape (blades,).
 
@@ -227,40 +232,33 @@ def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, Any]:
     }
 
 
-def so_far(state: SimulationState, per_revolution: int, revolutions: int) -> dict[str, np.ndarray]:
-    """Force, heat and bounded steps of a blade from the start to the end of each of the `revolutions`; NaN after the end.
-
-    Between two marks of the totals the heat is a straight line, all else what it is at the later one.
-    """
-    samples, totals = zip((0, np.zeros((), TOTALS)), *state.marks, (state.samples, state.totals), strict=True)
-    marks, values, ends = np.array(samples) / per_revolution, np.stack(totals), np.arange(1, revolutions + 1)
-    later = np.searchsorted(marks, ends).clip(max=len(marks) - 1)
-    numbers = {
-        "force_so_far": values["largest_force"][later],
-        "heat_so_far": np.interp(ends, marks, values["friction_heat"]),
-        "bounded_so_far": values["steps_bounded"][later],
-    }
-    return {name: np.where(ends > int(marks[-1]), np.nan, value) for name, value in numbers.items()}
-
-
 def _so_far(run: FinishedRun) -> dict[str, Any]:
-    """Arrays of so_far, of all blades the most, and heat and power of the friction.
+    """Force, heat and bounded steps from the start to the end of each revolution, of all blades the most; NaN after the end.
 
-    `friction_power`: the largest mean over HEATED revolutions, or over a shorter run.
+    Between two marks of the totals the heat is a straight line, all else what it is at the later one. `friction_power`: the
+    largest mean over HEATED revolutions, or over a shorter run.
     """
-    choice = run.problem.choice
-    blades = [so_far(state, choice.samples_per_revolution, choice.revolutions) for state in run.states]
-    most = {name: np.fmax.reduce([each[name] for each in blades]) for name in blades[0]}
-    heat = most["heat_so_far"]
+    problem, shape = run.problem, (len(run.states), run.problem.choice.revolutions)
+    forces, heats, bounded = (np.full(shape, np.nan) for _ in range(3))
+    for blade, state in enumerate(run.states):
+        samples, totals = zip((0, np.zeros((), TOTALS)), *state.marks, (state.samples, state.totals), strict=True)
+        marks, values = np.array(samples) / problem.choice.samples_per_revolution, np.stack(totals)
+        done = np.arange(1, min(int(marks[-1]), shape[1]) + 1)
+        later = np.searchsorted(marks, done)
+        forces[blade, : len(done)] = values["largest_force"][later]
+        bounded[blade, : len(done)] = values["steps_bounded"][later]
+        heats[blade, : len(done)] = np.interp(done, marks, values["friction_heat"])
+    heat = np.fmax.reduce(heats)
     known = np.concatenate([[0.0], heat[np.isfinite(heat)]])
     window = min(HEATED, len(known) - 1)
-    powers = (known[window:] - known[: len(known) - window]) / (max(window, 1) * 2.0 * np.pi / run.problem.speed)
-    return {"friction_power": powers.max(), "friction_heat": known[-1], **most}
-
-
-def melting_power(model: ContactModel) -> float:
-    """Power of the friction (W) whose share of the tip melts it in a second."""
-    return MELTING * model.tip_lengths.sum()
+    powers = (known[window:] - known[: len(known) - window]) / (max(window, 1) * 2.0 * np.pi / problem.speed)
+    return {
+        "friction_power": powers.max(),
+        "friction_heat": known[-1],
+        "force_so_far": np.fmax.reduce(forces),
+        "heat_so_far": heat,
+        "bounded_so_far": np.fmax.reduce(bounded),
+    }
 
 
 def casing_waves(

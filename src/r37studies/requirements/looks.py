@@ -28,7 +28,7 @@ from r37core.stress.operator import judged_operator
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
-from r37core.time_integration.kept_numbers import melting_power, so_far, wear_numbers
+from r37core.time_integration.kept_numbers import melting_power, wear_numbers
 from r37core.time_integration.settling import remaining_drift, window_of
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
@@ -77,9 +77,7 @@ class JudgedBlade(BladeRuns):
         """The scene with lobes that grow as in the sweep's runs, however long a run is."""
         return self.scene.rising_over(self.choice.length_of_rise_fraction)
 
-    def runs_from_rest(
-        self, speeds: Iterable[float], scene: Scene | None = None, **changes: Any
-    ) -> xr.Dataset:
+    def runs_from_rest(self, speeds: Iterable[float], scene: Scene | None = None, **changes: Any) -> xr.Dataset:
         """Runs from rest at speeds (rad/s), in another scene if it is given, with changes of the long choice."""
         of, choice = scene or self.rising_scene, replace(self.long_choice, **changes)
         runs = {speed: partial(self.numbers_at, of, choice, speed) for speed in speeds}
@@ -127,17 +125,18 @@ class JudgedBlade(BladeRuns):
         return xr.Dataset({name: ("speed", each) for name, each in values.items()}, {"speed": speeds})
 
     def _limited(self, integration: RunUpIntegration, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
-        """Arrays of a run-up that the model's limits are of, but the power of the friction: its heat counts from the start."""
-        state, quadratic = integration.state, self.model.quadratic
-        per_revolution, count = self.choice.samples_per_revolution, len(numbers["speed"])
-        run = so_far(state, per_revolution, count) | {
-            "largest_normal_force": state.totals["largest_force"],
-            "bounded_share_of_time": state.totals["steps_bounded"],
-            "friction_heat": state.totals["friction_heat"],
+        """Arrays of a run-up that the model's limits are of; the heat of its friction stands in for the power."""
+        totals, quadratic = integration.state.totals, self.model.quadratic
+        run = {
+            "largest_normal_force": totals["largest_force"],
+            "bounded_share_of_time": totals["steps_bounded"] / max(totals["steps"], 1.0),
+            "friction_heat": totals["friction_heat"],
             "melting_power": melting_power(self.model),
         }
         if quadratic is not None:
-            reached = np.max([numbers[f"maximum_{direction}"].max(axis=1) for direction in DIRECTIONS], axis=0) / quadratic.height
+            reached = (
+                np.max([numbers[f"maximum_{direction}"].max(axis=1) for direction in DIRECTIONS], axis=0) / quadratic.height
+            )
             run |= {"revolution_share_of_height": reached, "peak_share_of_height": reached.max(initial=0.0)}
             run["share_of_height_limit"] = quadratic.share_within(PATH_ERROR * self.scene.casing.clearance)
         return run
