@@ -43,7 +43,7 @@ def test_ranges_are_of_straight_lines():
     ]  # fmt: skip
     assert ranges_above(speeds, np.array([1.0, 0.0, 0.0, 0.0, 0.0]), 0.5) == [SpeedRange(0.0, 5.0, truncated=True)]
     assert ranges_above(speeds, np.full(5, 0.5), 0.5) == []
-    assert ranges_above(speeds, np.array([1.0, 4.0, np.inf, 2.0, 1.0]), 3.0) == [span(pytest.approx(20.0 / 3.0), 20.0)]
+    assert ranges_above(speeds, np.array([1.0, 4.0, np.inf, 2.0, 1.0]), 3.0) == [span(pytest.approx(20.0 / 3.0), 25.0)]
     both = [span(5.0, 9.0), SpeedRange(0.0, 6.0, truncated=True), span(9.5, 10.0)]
     assert joined(both) == [SpeedRange(0.0, 9.0, truncated=True), span(9.5, 10.0)]
     touching = [span(low, high) for low, high in ((0.0, 1.0), (2.0, 5.0), (3.0, 4.0), (5.0, 6.0))]

@@ -57,7 +57,8 @@ def ranges_of(response: xr.Dataset) -> dict[str, list[SpeedRange]]:
 def grid_scatter(response: xr.Dataset, measure: Callable[[Sequence[SpeedRange]], float] | None = None) -> float:
     """Standard deviation (rad/s) of the length, or another `measure`, of the dangerous speeds by the distance of the speeds."""
     ratio = ratio_to_yield(response)
-    return Exceedance(ratio["speed"].values, ratio.values, chance=False).scatter_of_length(1.0, measure)
+    # an infinite one has no mean
+    return Exceedance(ratio["speed"].values, ratio.clip(max=1e6).values, chance=False).scatter_of_length(1.0, measure)
 
 
 def largest_of(response: xr.Dataset) -> dict[str, float]:

@@ -181,7 +181,7 @@ def is_lined(response: xr.Dataset) -> bool:
 def ranges_above(speeds: np.ndarray, values: np.ndarray, level: float) -> list[SpeedRange]:
     """Where `values` at ascending `speeds` (rad/s) are above a `level`; between speeds they are a straight line.
 
-    From an infinite value nothing of the way to one below counts.
+    From an infinite value half of the way to one below counts.
     """
     above = np.concatenate([[False], values > level, [False]])
     firsts, lasts = np.flatnonzero(~above[:-1] & above[1:]), np.flatnonzero(above[:-1] & ~above[1:]) - 1
@@ -189,7 +189,7 @@ def ranges_above(speeds: np.ndarray, values: np.ndarray, level: float) -> list[S
     def crossing(inside: int, outside: int) -> float:
         if not 0 <= outside < len(speeds):
             return float(speeds[inside])
-        way = (values[inside] - level) / (values[inside] - values[outside]) if np.isfinite(values[inside]) else 0.0
+        way = (values[inside] - level) / (values[inside] - values[outside]) if np.isfinite(values[inside]) else 0.5
         return float(speeds[inside] + way * (speeds[outside] - speeds[inside]))
 
     return [

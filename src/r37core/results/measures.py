@@ -65,7 +65,7 @@ def strongest_order(amplitude: xr.DataArray) -> float:
 
 def has_strengths(response: xr.Dataset) -> bool:
     """True for a response with shares of the Goodman line: fatigue of a blade whose material has strengths."""
-    return "goodman_share" in response and bool(np.isfinite(response["fatigue_strength"]))
+    return "fatigue_strength" in response and bool(np.isfinite(response["fatigue_strength"]))
 
 
 def lasts(response: xr.Dataset) -> xr.DataArray:

@@ -95,9 +95,9 @@ COLUMNS = (
 """Columns of verdict.csv after blade and scene.
 
 `value` and `limit` are in the `unit`; the value is NaN where it is not known, for the reason in `note`. `value_lowest`,
-`value_highest`: of everything that was tried, with the error of mesh and step and two standard deviations. `margin`: distance
-from the limit, below 0 where the requirement is broken. `from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard
-deviation of the value by friction, step and mesh, of a length also by chance and distance of the speeds; `members`,
+`value_highest`: of everything that was tried, with the error of mesh and step, two standard deviations and unknown speeds.
+`margin`: distance from the limit, below 0 where the requirement is broken. `from_rad_s`, `to_rad_s`: speeds where it is worst.
+`scatter`: standard deviation of the value by friction, step and mesh, of a length also by distance of the speeds; `members`,
 `share_of_members`: number of members under tolerances, and the share of them that meets it; `margin_worst_motion`: margin of
 the worst of all motions; NaN each where not run. `further_runs`: how many there were, NaN of what is not judged by runs.
 """
@@ -220,6 +220,8 @@ def _judged_by_runs(
     if row["scatter"] > 0.0:
         name, end = (MORE_SCATTER, highest) if row["verdict"] == MEETS else (LESS_SCATTER, lowest)
         table.append(Trial(name, evidence, value=end))
+    # what leaves the model may be above yield
+    highest += columns.get("unknown", 0.0)
     finite = [value for trial in table for value in (trial.value, trial.raised) if np.isfinite(value)]
     operating = evidence.operating
     width = operating.last - operating.first
@@ -388,6 +390,7 @@ def _above_yield(evidence: Evidence) -> Columns:
         "value": operating.length(inside),
         "from_rad_s": max(widest.begin, operating.first),
         "to_rad_s": min(widest.end, operating.last),
+        "unknown": left,
         "scatter": grid_scatter(response, operating.length),
         "note": "; ".join(filter(None, notes)),
     }
