@@ -136,6 +136,3 @@ def test_two_clearances_are_so_many_metres(clearance):
 
 SPREAD = {"casing.clearance_m": {"uniform_percent": 5}}
 SPREAD_COLD = {"casing.clearance.cold_m": {"uniform_percent": 5}}
-QUANTILE = {"measure": "largest_rms_m", "scenes": ["abradable"], "quantile": 0.9}
-SEARCH = {"blade": "Ref", "variables": {"stagger_deg.tip": [-2, 2]}, "objectives": {"lined": QUANTILE}}
-SEARCH |= {"tolerances": {"members": 2, "of_scenes": SPREAD}}

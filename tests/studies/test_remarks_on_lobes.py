@@ -2,7 +2,7 @@
 
 import pytest
 import yaml
-from test_lining import SAID, SEARCH, SPREAD, SPREAD_COLD
+from test_lining import SAID, SPREAD, SPREAD_COLD
 
 from r37core.config import command_line_document
 from r37core.product.extensions import read_settings
@@ -15,7 +15,6 @@ from r37core.product.remarks import remarks as remarks_of_run
         ({}, {}, None),
         ({"tolerances": {"members": 2, "of_scenes": SPREAD}}, {}, "abradable, direct"),
         ({"tolerances": {"members": 2, "of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}}, {}, None),
-        ({"search": SEARCH}, {}, "abradable, direct"),
         ({"tolerances": {"members": 2, "of_scenes": SPREAD_COLD}, "scenes": ["growing_direct"]}, {}, "growing_direct"),
         ({"tolerances": {"members": 2, "of_scenes": SPREAD}}, {"direct": {"lobes": 0}}, "abradable"),
         ({}, {"direct": {"clearance_m": 4e-4}}, "abradable, direct"),

@@ -15,7 +15,7 @@ from r37studies.search.dataset import search_dataset, search_table
 from r37studies.search.designs import START, SearchChoice, designs_of
 from r37studies.search.figures import draw_designs
 from r37studies.search.quantity import contact_value, structure_value
-from r37studies.search.section import ConstraintSection, ObjectiveSection, QuantitySection, SearchSection
+from r37studies.search.section import ConstraintSection, QuantitySection, SearchSection
 from r37studies.search.steps import next_designs
 from r37studies.surrogate.proposal import first_designs
 
@@ -58,7 +58,7 @@ OF_START = {"lined": (40.0, 1.0), "mass": (2.0, 0.0)}
 LINED, MASS = {"measure": "length_most_revolutions_rad_s", "scenes": ["s"]}, {"measure": "mass_kg"}
 
 
-def choice(method="quasi_random", seed=0, start=(0.0, None), **keys):
+def choice(seed=0, start=(0.0, None), **keys):
     """Choice of a search, with other keys of its section."""
     section = {
         "blade": "Free",
@@ -66,7 +66,7 @@ def choice(method="quasi_random", seed=0, start=(0.0, None), **keys):
         "objectives": {"lined": LINED},
         "constraints": {"mass": {**MASS, "at_least_percent": 95.0, "at_most_percent": 110.0}},
     }
-    return SearchChoice(SearchSection(**{**section, "method": method, "seed": seed, **keys}), start)
+    return SearchChoice(SearchSection(**{**section, "seed": seed, **keys}), start)
 
 
 def gave(values):
@@ -90,27 +90,25 @@ def searched(wanted, counts=(3, 2, 2)):
     return tried
 
 
-@pytest.mark.parametrize("method", ["quasi_random", "surrogate"])
-def test_rounds_spend_the_budget_in_batches_and_the_same_seed_gives_the_same(method):
-    tried = searched(choice(method))
-    assert repr(searched(choice(method))) == repr(tried) != repr(searched(choice(method, seed=1)))
+def test_rounds_spend_the_budget_in_batches_and_the_same_seed_gives_the_same():
+    tried = searched(choice())
+    assert repr(searched(choice())) == repr(tried) != repr(searched(choice(seed=1)))
     _, *designs = tried.values()
     assert [(each.name, each.round) for each in designs] == [
         (f"d000{n}", place) for n, place in enumerate([0, 0, 0, 1, 1, 2, 2])
     ]
     assert (tried["d0001"].refused, tried["d0001"].quantities, tried["d0001"].is_done) == ("crossed", {}, False)
-    if method == "quasi_random":
-        assert [design.values for design in designs] == first_designs([(-3.0, 3.0), (-1.0, 1.0)], 7, 0)
+    assert [design.values for design in designs[:3]] == first_designs([(-3.0, 3.0), (-1.0, 1.0)], 7, 0)[:3]
     # a larger budget changes no design that is there
-    assert repr(list(searched(choice(method), (3, 2, 2, 1)).values())[:8]) == repr(list(tried.values()))
+    assert repr(list(searched(choice(), (3, 2, 2, 1)).values())[:8]) == repr(list(tried.values()))
 
 
 def test_proposals_know_the_start(monkeypatch):
     """Where its values are known; it is measured anyway."""
     known = []
     monkeypatch.setattr(steps, "propose", lambda variables, evaluated, batch, seed: known.append(evaluated) or [])
-    searched(choice("surrogate"), (3, 2))
-    searched(choice("surrogate", start=(0.5, 0.0)), (3, 2))
+    searched(choice(), (3, 2))
+    searched(choice(start=(0.5, 0.0)), (3, 2))
     without, (start, *others) = known
     assert [each.name for each in without] == [each.name for each in others] == ["d0000", "d0001", "d0002"]
     assert (start.name, start.values, start.objectives, start.scatters) == ("start", (0.5, 0.0), (40.0,), (1.0,))
@@ -162,35 +160,24 @@ def test_quantities_of_a_structure(measure, keys, expected):
     assert structure_value(quantity, 16000.0, campbell(), STRESS, 1000.0) == pytest.approx(expected)
 
 
-def of_contact(measure, *scenes, **keys):
-    return ObjectiveSection(measure=measure, scenes=list(scenes), **keys)
+def of_contact(measure, *scenes):
+    return QuantitySection(measure=measure, scenes=list(scenes))
 
 
-def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
-    nominal = {
+def test_the_worst_of_several_scenes_counts():
+    measures = {
         "a": {"length_most_revolutions_rad_s": 3.0, "length_most_revolutions_scatter_rad_s": 0.1},
         "b": {"length_most_revolutions_rad_s": 5.0, "length_most_revolutions_scatter_rad_s": 0.05},
     }
-    members = {
-        "a": [{"length_most_revolutions_rad_s": float(value)} for value in range(11)],
-        "b": [{"length_most_revolutions_rad_s": 7.0}] * 4,
-    }
-    assert contact_value(of_contact("length_most_revolutions_rad_s", "a", "b"), nominal, {}) == (5.0, 0.05)
-    value, scatter = contact_value(of_contact("length_most_revolutions_rad_s", "a", "b", quantile=0.9), nominal, members)
-    assert value == pytest.approx(9.0) and 0.2 < scatter < 3.0
-    assert contact_value(of_contact("length_most_revolutions_rad_s", "b", quantile=0.5), nominal, members) == (7.0, 0.0)
+    assert contact_value(of_contact("length_most_revolutions_rad_s", "a", "b"), measures) == (5.0, 0.05)
 
 
 @pytest.mark.parametrize("measure", ["largest_rms_m", "largest_median_stress_pa"])
 def test_a_design_is_not_better_for_runs_that_diverged(measure):
     """They have neither motion nor stress."""
     ended, diverged = ({measure: 2.0, "diverged_runs": float(number)} for number in (0, 1))
-    value, scatter = contact_value(of_contact(measure, "a", "b"), {"a": ended, "b": diverged}, {})
+    value, scatter = contact_value(of_contact(measure, "a", "b"), {"a": ended, "b": diverged})
     assert value == np.inf and np.isnan(scatter)
-    members = {"a": [ended] * 8 + [diverged] * 2}
-    for quantile, expected in ((0.5, 2.0), (0.9, np.inf)):
-        value, scatter = contact_value(of_contact(measure, "a", quantile=quantile), {}, members)
-        assert value == expected and np.isnan(scatter)
 
 
 def test_the_start_has_values_of_what_its_entry_leaves_out(folder):
@@ -241,7 +228,7 @@ LENGTHS = (50.0, 5.0, 400.0, np.nan, 100.0, 0.0, 20.0)
 def search_of(objectives=("lined", "stress"), keys=KEYS, most=2.0, start=-1.0, **of_start):
     """The start and six designs in two rounds: the first is too heavy, the third cannot be built."""
     sections = {"objectives": {name: OF[name] for name in objectives}, "constraints": {"weight": {**MASS, "at_most": most}}}
-    wanted = choice("surrogate", start=len(keys) * (start,), variables={key: [-1.0, 1.0] for key in keys}, **sections)
+    wanted = choice(start=len(keys) * (start,), variables={key: [-1.0, 1.0] for key in keys}, **sections)
     tried = {}
     for place, (length, value) in enumerate(zip(LENGTHS, np.linspace(-1.0, 1.0, 7).tolist(), strict=True)):
         mass = 9.0 if place == 1 else 1.0 + 0.001 * length

@@ -105,10 +105,8 @@ def remarks_on_lobes(settings: Settings, changed: Collection[str] = ()) -> Itera
 
 
 def _spread_numbers(settings: Settings) -> set[str]:
-    """Dotted keys of scene numbers that spread: under `tolerances`, and in sections that have tolerances of their own."""
-    sections = [section for _, section in settings.config]
-    sections += [getattr(section, "tolerances", None) for section in sections]
-    return {key for section in sections if isinstance(section, Spreads) for key in section.of_scenes}
+    """Dotted keys of scene numbers that spread."""
+    return {key for _, section in settings.config if isinstance(section, Spreads) for key in section.of_scenes}
 
 
 def remarks_on_linear_variants(settings: Settings) -> Iterator[str]:

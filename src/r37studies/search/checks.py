@@ -6,7 +6,7 @@ from r37core.blade.definition import Shape
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
 from r37core.config import ConfigError, Settings, operating_range
-from r37core.config.changed_numbers import ImpossibleValueError, blade_number, check_known, entry_with
+from r37core.config.changed_numbers import ImpossibleValueError, entry_with
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.document import Document
 from r37core.config.messages import did_you_mean, single_line
@@ -43,7 +43,6 @@ def search_can_be_run(settings: Settings) -> None:
             without = f"{key} of '{entry.blade}', which has no table of sweep and lean"
             raise document.refusal(without, "a blade with one, or other variables", "search", "variables", key)
     _operation_is_known(settings)
-    _tolerances_are_possible(settings, designs)
     with document.blamed(("search",), SearchPackageMissing):
         library()
 
@@ -111,24 +110,3 @@ def _scenes_are_run(settings: Settings) -> None:
             engine_order_is_known(settings, (*path, "engine_order"), quantity.engine_order)
     if not designs_of(settings).scenes:
         raise document.refusal("no scene", "an objective or constraint of contact, with scenes", "search", "objectives")
-
-
-def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None:
-    tolerances, document = designs.entry.tolerances, settings.document
-    if tolerances is None:
-        return
-    path, numbers = ("search", "tolerances"), tolerances.spreads
-    check_known(numbers, (key for known in designs.scene_numbers.values() for key in known), document, path)
-    blade = settings.blades[designs.entry.blade]
-    for key in tolerances.of_blades:
-        try:
-            nominal = blade_number(blade, key)
-        except ValueError as error:
-            raise document.refusal(str(error), "other numbers", *path, "of_blades", key) from None
-        if nominal is None:
-            raise document.refusal(f"{key}, which '{designs.entry.blade}' does not have", "others", *path, "of_blades", key)
-    try:
-        designs.members("of the search", None)
-    except ImpossibleValueError as error:
-        place, text = error.place(numbers)
-        raise document.error((*path, *place), f"a member of the start: {text}; or a narrower tolerance") from None

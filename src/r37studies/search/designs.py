@@ -13,17 +13,12 @@ from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, val
 from r37core.blade.definition import Shape
 from r37core.config import BladeSettings, Settings, operating_range, plain, varied_settings
 from r37core.config.blades import blade_settings
-from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
+from r37core.config.changed_numbers import entry_with, scene_numbers
 from r37core.config.families import design_entry
 from r37core.config.shape_keys import SECTION_KEYS, SHARES, ShapeKeys, neutral_value
-from r37core.contact.scene import Scene
-from r37studies.member_values import drawn, sobol_points
 from r37studies.surrogate.designs import Design, Value
 
 from .section import SECTION, QuantitySection, SearchSection
-
-QUASI_RANDOM = "quasi_random"
-"""Method without a surrogate."""
 
 START = "start"
 """Name of the design that the search starts at."""
@@ -32,9 +27,6 @@ UNKNOWN: Value = (math.nan, math.nan)
 
 FOLDER = SECTION.name
 """Folder of the designs' files: the extension's name."""
-
-NOMINAL = "nominal"
-"""Name of the run of a design without tolerances."""
 
 _KEPT = ("stress", "static_stress", "fatigue")
 """Results of a scene that designs have, too: what they are judged by."""
@@ -113,37 +105,23 @@ class SearchDesigns:
         # the name is that of the start, by which tables of sweep and lean know it
         return blade_settings(blade, {**designs.entries, blade: changed}, self.settings.root, designs.document)
 
-    def members(self, name: str, values: Sequence[float] | None) -> dict[str, dict[str, Settings]]:
-        """Scene -> the settings with a design in it: NOMINAL, and members under tolerances where an objective has a quantile.
+    def design_settings(self, name: str, values: Sequence[float] | None) -> dict[str, Settings]:
+        """Scene -> the settings with a design in it, and results that designs are judged by.
 
-        Without `values` it is the start. Raises ConfigError and ImpossibleValueError where one of them is impossible.
+        Without `values` it is the start. Raises ConfigError and ImpossibleValueError where a value is impossible.
         """
-        blade = self.blade(name, values)
+        blade, settings, searched = self.blade(name, values), self.settings, self.entry.blade
+        if isinstance(shape := blade.definition, Shape) and blade.elastic != settings.blades[searched].elastic:
+            # for messages
+            blade = replace(blade, definition=shape.replaced(name=f"{searched}, {FOLDER}/{name}"))
         named = {} if values is None else dict(zip(self.entry.variables, values, strict=True))
-        return {scene: self._scene_members(name, blade, scene, self.scene_changes(scene, named)) for scene in self.scenes}
-
-    def _scene_members(self, name: str, blade: BladeSettings, scene: str, changes: Mapping[str, float]) -> dict[str, Settings]:
-        """Settings of the design itself, NOMINAL, and of its members under tolerances."""
-        entry, tolerances, design = self.settings.scene_designs.entries[scene], self.entry.tolerances, f"{FOLDER}/{name}"
-        members = {NOMINAL: self._settings(blade, scene, entry_with(entry, changes).scene(), design)}
-        if tolerances is None:
-            return members
-        spreads, varied = tolerances.spreads, {VariedNumber(SCENE, key): value for key, value in changes.items()}
-        nominal = [nominal_value(number, blade, {**self.scene_numbers[scene], **changes}) for number in spreads]
-        for member, shares in sobol_points(len(spreads), tolerances.members, self.entry.seed).items():
-            other, changed = changed_pair(blade, entry, {**varied, **drawn(spreads, nominal, shares)})
-            own = design if other.elastic == blade.elastic else f"member {member} of {design}"
-            members[member] = self._settings(other, scene, changed, own)
-        return members
-
-    def _settings(self, blade: BladeSettings, scene: str, changed: Scene, design: str) -> Settings:
-        """The settings with a blade and a scene, and results that designs are judged by; `design` is for messages."""
-        name, settings, shape = self.entry.blade, self.settings, blade.definition
-        if isinstance(shape, Shape) and blade.elastic != settings.blades[name].elastic:
-            blade = replace(blade, definition=shape.replaced(name=f"{name}, {design}"))
-        results = tuple(result for result in settings.results_of(name, scene) if result in _KEPT)
-        chosen = replace(settings.scenes[scene], scene=changed, results=results, stress_history_speeds=())
-        return varied_settings(settings, {name: blade}, {scene: chosen})
+        in_scenes = {}
+        for scene in self.scenes:
+            changed = entry_with(settings.scene_designs.entries[scene], self.scene_changes(scene, named)).scene()
+            results = tuple(result for result in settings.results_of(searched, scene) if result in _KEPT)
+            chosen = replace(settings.scenes[scene], scene=changed, results=results, stress_history_speeds=())
+            in_scenes[scene] = varied_settings(settings, {searched: blade}, {scene: chosen})
+        return in_scenes
 
 
 def start_value(entry: ShapeKeys, key: str) -> float | None:

@@ -25,7 +25,7 @@ from r37core.sweep.driver import Driver, RunAll, one_by_one
 from r37core.sweep.recipe import STRUCTURES, Recipe, code_of, recipes, structure_attributes
 from r37core.time_integration.clearance import NoRoomError
 
-from .designs import NOMINAL, choice_of, designs_of
+from .designs import choice_of, designs_of
 from .measures import MINIMISED
 from .quantity import contact_value, static_stress, structure_value
 
@@ -38,14 +38,11 @@ class Refused(ValueError):
 
 @dataclass(frozen=True)
 class DesignRuns:
-    """Runs of a design: `structure`, recipes of its own blade, and for each scene the sweeps, that of NOMINAL first.
+    """Runs of a design: `structure`, recipes of its own blade, and of each scene its `settings`, its sweep and its speeds."""
 
-    `nominal`: settings of these by scene; `speeds`: those that the sweeps of a scene share.
-    """
-
-    nominal: Mapping[str, Settings]
+    settings: Mapping[str, Settings]
     structure: Mapping[str, Recipe]
-    scenes: Mapping[str, Mapping[str, BladeSweep]]
+    scenes: Mapping[str, BladeSweep]
     speeds: Mapping[str, SharedSpeeds]
 
     @property
@@ -92,20 +89,13 @@ class Evaluation:
 
     def runs(self, name: str, values: Sequence[float] | None) -> DesignRuns:
         """Runs of a design. Raises ConfigError and ImpossibleValueError for one that is impossible."""
-        members, blade = designs_of(self.settings).members(name, values), self._blade
-        nominal = {scene: several[NOMINAL] for scene, several in members.items()}
-        first = next(iter(nominal.values()))
-        sweeps = {
-            scene: {each: blade_sweep(varied, blade, scene, kept=self._is_start(varied)) for each, varied in several.items()}
-            for scene, several in members.items()
-        }
-        speeds = {scene: shared_speeds(varied, blade, scene) for scene, varied in nominal.items()}
-        structure = recipes(first, blade, dict.fromkeys(_STRUCTURE), kept=self._is_start(first))
-        return DesignRuns(nominal, structure, sweeps, speeds)
-
-    def _is_start(self, varied: Settings) -> bool:
-        """True if the blade has the model of the start, which the user's cache keeps."""
-        return varied.blades[self._blade].elastic == self.settings.blades[self._blade].elastic
+        in_scenes, blade = designs_of(self.settings).design_settings(name, values), self._blade
+        first = next(iter(in_scenes.values()))
+        # the user's cache keeps the model of the start
+        kept = first.blades[blade].elastic == self.settings.blades[blade].elastic
+        sweeps = {scene: blade_sweep(varied, blade, scene, kept=kept) for scene, varied in in_scenes.items()}
+        speeds = {scene: shared_speeds(varied, blade, scene) for scene, varied in in_scenes.items()}
+        return DesignRuns(in_scenes, recipes(first, blade, dict.fromkeys(_STRUCTURE), kept=kept), sweeps, speeds)
 
     def _measure(self, name: str, runs: DesignRuns, run_all: RunAll, file: Path) -> None:
         """Build the design, run it, and write its quantities. Raises Refused where it cannot be built."""
@@ -116,24 +106,22 @@ class Evaluation:
             # of a shape, of its mesh, or of a region of the stress without elements
             raise Refused(str(error)) from None
         operating, quantities = operating_range(self.settings), choice_of(self.settings).quantities
-        nominal, members = {}, {}
-        for scene, sweeps in runs.scenes.items():
+        measures = {}
+        for scene, sweep in runs.scenes.items():
             driver = Driver(self.folder / name / scene, self._structures, attributes, run_all)
-            about = str(Sweep(runs.nominal[scene]).provenance(Named(blade=blade, scene=scene)))
-            responses = driver.run(sweeps, runs.speeds[scene], made[CAMPBELL], dict.fromkeys(sweeps, about))
-            first, *others = map(read_judged, responses.values())
-            nominal[scene] = robustness(first, operating=operating)
-            members[scene] = [robustness(member, chance_scatter=False, operating=operating) for member in others]
+            about = str(Sweep(runs.settings[scene]).provenance(Named(blade=blade, scene=scene)))
+            (response,) = driver.run({name: sweep}, runs.speeds[scene], made[CAMPBELL], {name: about}).values()
+            measures[scene] = robustness(read_judged(response), operating=operating)
         highest = self.settings.structure.maximum_speed_rad_s
         speeds = sorted({quantity.speed_rad_s or highest for quantity in quantities.values()})
         stiffening = read_contact_model(made["contact_model"]).rotation_stiffening
         stress = static_stress(judged_operator(read_stress_operators(made["stress_operator"])), stiffening, speeds)
-        material = next(iter(runs.nominal.values())).blades[blade].material
+        material = next(iter(runs.settings.values())).blades[blade].material
         assert material is not None
         mass = material.density * float(read_dataset(made["geometry"])["volume"])
         campbell = read_dataset(made[CAMPBELL])
         values = {
-            name: contact_value(quantity, nominal, members)
+            name: contact_value(quantity, measures)
             if quantity.measure in MINIMISED
             else (structure_value(quantity, mass, campbell, stress, highest), 0.0)
             for name, quantity in quantities.items()

@@ -67,7 +67,7 @@ def simulations(settings: Settings) -> dict[Pair, Runs]:
         return {}
     designs = designs_of(settings)
     entry = designs.entry
-    runs = (1 + entry.designs) * (1 + (entry.tolerances.members if entry.tolerances else 0))
+    runs = 1 + entry.designs
     pairs = [(entry.blade, scene) for scene in designs.scenes]
     return {
         pair: Runs(

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     from .section import QuantitySection
 
-_RESAMPLES, _SEED = 200, 0
-
 
 def static_stress(stress: StressOperator, stiffening: np.ndarray, speeds: Sequence[float]) -> dict[float, float]:
     """Largest von Mises stress (Pa) by rotation alone at each speed (rad/s); `stiffening` as rotation_amplitudes has it."""
@@ -58,33 +56,16 @@ def structure_value(
     return 100.0 * abs(frequency / excitation - 1.0)
 
 
-def contact_value(
-    quantity: QuantitySection, nominal: Mapping[str, Mapping[str, float]], members: Mapping[str, Sequence[Mapping[str, float]]]
-) -> tuple[float, float]:
+def contact_value(quantity: QuantitySection, measures: Mapping[str, Mapping[str, float]]) -> tuple[float, float]:
     """Value of a quantity of contact and its standard deviation, NaN where that is not known: of the worst scene.
 
-    `nominal`: scene -> its robustness; `members`: scene -> those of each member under tolerances. A quantile's standard
-    deviation is that over samples drawn from the members.
+    `measures`: scene -> measure -> its value, with the scatter of those that have one.
     """
-    scene_values = []
-    quantile = getattr(quantity, "quantile", None)
-    for scene in quantity.scenes or ():
-        if quantile is None:
-            scatter = f"{quantity.measure.removesuffix('_rad_s')}_scatter_rad_s"
-            scene_values.append((_run_value(quantity.measure, nominal[scene]), nominal[scene].get(scatter, math.nan)))
-        else:
-            member_values = [_run_value(quantity.measure, member) for member in members[scene]]
-            scene_values.append(_quantile(member_values, quantile))
-    return max(scene_values, key=lambda value: value[0])
+    scatter = f"{quantity.measure.removesuffix('_rad_s')}_scatter_rad_s"
+    of_scenes = [measures[scene] for scene in quantity.scenes or ()]
+    values = [(_run_value(quantity.measure, known), known.get(scatter, math.nan)) for known in of_scenes]
+    return max(values, key=lambda value: value[0])
 
 
 def _run_value(measure: str, robustness: Mapping[str, float]) -> float:
     return math.inf if measure in OF_ENDED_RUNS and robustness["diverged_runs"] else robustness[measure]
-
-
-def _quantile(values: Sequence[float], quantile: float) -> tuple[float, float]:
-    if not all(map(math.isfinite, values)):
-        # one of the values: between infinite ones there is none
-        return float(np.quantile(values, quantile, method="inverted_cdf")), math.nan
-    drawn = np.random.default_rng(_SEED).choice(values, (_RESAMPLES, len(values)))
-    return float(np.quantile(values, quantile)), float(np.std(np.quantile(drawn, quantile, axis=1)))

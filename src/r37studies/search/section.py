@@ -20,9 +20,9 @@ from r37core.config.section import (
     plain,
     refused,
 )
-from r37core.config.spread import Bounds, MemberCount, Number, Spreads
+from r37core.config.spread import Bounds, Number
 
-from .measures import MEASURES, MINIMISED, STRUCTURE_MEASURES
+from .measures import MEASURES, STRUCTURE_MEASURES
 
 OPERATING_MEASURE = "exceedance_integral_operating_rad_s"
 """Measure of a quantity without one, where there is an operating range."""
@@ -58,25 +58,12 @@ class QuantitySection(Section):
     @property
     def made_of(self) -> dict[str, Any]:
         """All that the value of a design follows from, bounds left out."""
-        return {key: getattr(self, key, None) for key in ("measure", *_PLACES, "quantile")}
+        return {key: getattr(self, key) for key in ("measure", *_PLACES)}
 
     def chosen(self, is_flown: bool) -> Self:
         """The quantity that is computed; without a measure that over the operating range, where there is one."""
         default = {} if "measure" in self.model_fields_set or not is_flown else {"measure": OPERATING_MEASURE}
         return self.model_copy(update=default)
-
-
-class ObjectiveSection(QuantitySection):
-    """Number of a design that should be small."""
-
-    quantile: Annotated[float, Field(ge=1e-3, le=0.999)] | LeftOut = left_out(
-        "Quantile under tolerances, such as 0.9; the nominal value without it"
-    )
-
-    def _check(self) -> None:
-        super()._check()
-        if self.quantile is not None and self.measure not in MINIMISED:
-            raise refused(f"a quantile of {self.measure}", f"one of {', '.join(MINIMISED)}", "quantile")
 
 
 class ConstraintSection(QuantitySection):
@@ -106,12 +93,6 @@ class ConstraintSection(QuantitySection):
         return -math.inf if low is None else low, math.inf if high is None else high
 
 
-class SearchTolerances(Spreads):
-    """Numbers that spread about those of every design, for objectives that are a quantile."""
-
-    members: MemberCount = option("Members of every design, a power of two", 16)
-
-
 class SearchSection(Section):
     """A search for better designs of one blade and its scenes, in rounds: each asks for more by what all before them gave."""
 
@@ -121,30 +102,20 @@ class SearchSection(Section):
         "scenes that have the number, such as scene.lining.thickness_m: [0.001, 0.005]",
         min_length=1,
     )
-    objectives: ByName[ObjectiveSection] = option(
+    objectives: ByName[QuantitySection] = option(
         "Numbers to minimise, by name, such as lined: {scenes: [abradable]}; several give a Pareto front"
     )
     constraints: Named[ConstraintSection] = option(
         "Limits, by name, such as first: {measure: frequency_hz, mode: 1B, at_least_percent: 98}", {}
     )
     designs: int = option("Number of designs to run", 60, ge=2, le=2000)
-    first: int = option("Number of first designs, from a quasi-random sequence", 16, ge=2, le=2000)
+    first: int = option("Number of first designs, from a quasi-random sequence; as large as designs: all", 16, ge=2, le=2000)
     batch: int = option("Number of designs per round, run in parallel", 4, ge=1, le=500)
-    method: Literal["surrogate", "quasi_random"] = option(
-        "Way to propose designs; quasi_random spreads them evenly, for comparison", "surrogate"
-    )
     seed: int = option("Seed of the search", 0, ge=0, le=2**31)
-    tolerances: SearchTolerances | LeftOut = left_out("Tolerances of objectives with a quantile")
 
     def _check(self) -> None:
         if self.first > self.designs:
             raise refused(f"{self.first}", f"at most designs ({self.designs})", "first")
-        quantiles = [name for name, objective in self.objectives.items() if objective.quantile is not None]
-        if quantiles and not (self.tolerances and self.tolerances.spreads):
-            where = ("objectives", quantiles[0], "quantile")
-            raise refused("a quantile", "tolerances beside it, with numbers that spread", *where)
-        if self.tolerances is not None and not quantiles:
-            raise refused("tolerances that no objective needs", "an objective with a quantile, or none of them", "tolerances")
         for key in self.variables:
             if inner := next((other for other in self.variables if other.startswith(f"{key}.")), None):
                 raise refused(f"{inner} beside {key}", "one of them: the other would replace it", "variables", inner)

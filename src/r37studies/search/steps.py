@@ -20,7 +20,7 @@ from r37studies.surrogate.designs import Design, best_first, not_dominated
 from r37studies.surrogate.proposal import first_designs, propose
 
 from .dataset import search_dataset, search_table
-from .designs import QUASI_RANDOM, START, SearchChoice, choice_of
+from .designs import START, SearchChoice, choice_of
 from .evaluation import Evaluation
 
 
@@ -56,8 +56,8 @@ def next_designs(tried: Mapping[str, Design], count: int, choice: SearchChoice) 
     """Values of the `count` designs that those `tried`, the start among them, ask for, by name; of the first evenly spread."""
     ranges = list(choice.entry.variables.values())
     done = len(tried.keys() - {START})
-    if not tried or choice.entry.method == QUASI_RANDOM:
-        values = first_designs(ranges, done + count, choice.entry.seed)[done:]
+    if not tried:
+        values = first_designs(ranges, count, choice.entry.seed)
     else:
         # a start at values that are not known tells nothing of those between
         known = [design for design in tried.values() if all(map(isfinite, design.values))]
