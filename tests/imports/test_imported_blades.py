@@ -130,18 +130,6 @@ def test_a_mesh_with_another_material(settings_with):
     [
         (MATRICES, "spin_softening: false", "spin_softening: true", r"\.spin_softening: .* put the term into its K_<speed>"),
         (MATRICES, "[abradable, direct]", "[growing_abradable]", r"\.centrifugal: found true, as.*'Fan', given by matrices"),
-        (
-            MESH,
-            "# exports:",
-            "exports: { stress_speeds_rad_s: [1000.5] }\n#",
-            r"exports\.stress_speeds_rad_s\.0: found 1000\.5; .* speeds that are sim",
-        ),
-        (
-            MESH,
-            "# exports:",
-            "exports: { mode_speeds_rad_s: [0, 2500] }\n#",
-            r"exports\.mode_speeds_rad_s\.1: found 2500; .*, 2000",
-        ),
     ],
 )
 def test_what_an_imported_blade_cannot_have(settings_with, entry, old, new, message):

@@ -7,15 +7,11 @@ import pytest
 import pyvista
 from box_operator import box_operator
 from defaults import Orientation
-from test_refinement import PLACE, RAD_S, on_command_line
 
-from r37core.base.speeds import exact_text
 from r37core.config import ConfigError, command_line_document
-from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.time_integration.speed_file import write_speed
 from r37studies.exports.matrices_out import write_full_matrices
-from r37studies.exports.plan import Exports
 from r37studies.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 
 NAMES = {"M.mtx", "K_0.mtx", "K_1000.mtx", "K_2000.mtx", "boundary.csv"}
@@ -86,13 +82,6 @@ def test_results_in_the_axes_of_another_program(whole, mesh, steel, instant, tmp
     components = np.stack([back[:, a, b] for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))], axis=1)
     np.testing.assert_allclose(components, ours.point_data["stress"], atol=1e-6 * np.abs(components).max())
     assert theirs.compute_cell_sizes()["Volume"].min() > 0.0
-
-
-def test_exports_name_speeds_in_rpm(root):
-    settings = on_command_line(root, speeds_rpm=[8000, 9000], exports={"stress_speeds_rpm": [9000]})
-    exported = Exports(Sweep(settings))
-    assert not exported.only_worst(PLACE)
-    assert exported.speed_files(PLACE) == [f"<results>/Ref/direct/speed_{exact_text(9000 * RAD_S)}.npz"]
 
 
 def test_full_matrices_are_those_of_linear_blades(root):

@@ -18,8 +18,6 @@ from workflow_runs import overlay
 from r37core.base.plain import from_plain, to_plain
 from r37core.config import command_line_document
 from r37core.plans.extent import extent_of
-from r37core.plans.paths import filled
-from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.results.table_file import write_table
 from r37studies.other_models import MODEL_NAME, OWN_MESH, ModelChoice
@@ -35,10 +33,6 @@ def case_of(choice=CHOICE, scene=DIRECT, speeds=(1500.0,), results=("energy",), 
     return Case("Ref", "pressure_edge", scene, choice, speeds, results, **{"material": None, "kept": kept, **fields})
 
 
-def with_section(root, name, **keys):
-    return read_settings(root, command_line_document({name: keys}))
-
-
 def test_cases_are_planned_without_what_runs_them():
     """The rules import the plans each time that Snakemake starts."""
     code = "import sys, r37studies.trials.plan; print(*{'netCDF4', 'matplotlib', 'xarray', 'pyvista'} & set(sys.modules))"
@@ -47,7 +41,7 @@ def test_cases_are_planned_without_what_runs_them():
 
 
 def test_a_case_is_plain_data():
-    lined = case_of(scene=replace(ABRADABLE, friction=None), crossing=("1B", None))
+    lined = case_of(scene=replace(ABRADABLE, friction=None), crossing="1B")
     model = ModelChoice(OWN_MESH, 8, 10)
     for case in (lined, replace(lined, model=model)):
         assert from_plain(Case, json.loads(json.dumps(to_plain(case)))) == case
@@ -60,19 +54,17 @@ def diagram(*speeds):
     return xr.Dataset({"crossing_speed": crossing}, {"speed": [0.0, 2000.0]})
 
 
-def test_without_an_order_the_fastest_crossing_inside_the_diagram_counts():
-    def crossing(campbell, order, highest_share):
-        return steps.crossing_speed(campbell, case_of(speeds=(highest_share,), crossing=("1B", order)))
+def test_the_fastest_crossing_inside_the_diagram_counts():
+    def crossing(campbell, highest_share):
+        return steps.crossing_speed(campbell, case_of(speeds=(highest_share,), crossing="1B"))
 
     crossings = diagram(np.nan, 1990.0, 1600.0, 1200.0)
-    assert crossing(crossings, 5, 1.0) == 1200.0
-    assert crossing(crossings, None, 1.0) == 1990.0
-    assert crossing(crossings, None, 1.1) == 1600.0
-    # the only ones, though the speeds above them lie outside
-    assert crossing(crossings, 3, 1.1) == crossing(diagram(np.nan, 1990.0), None, 1.1) == 1990.0
-    for order, named in ((2, "engine order 2 below .*; choose another engine_order"), (None, "any engine")):
-        with pytest.raises(ValueError, match=f"1B of Ref does not cross {named}"):
-            crossing(diagram(np.nan), order, 1.0)
+    assert crossing(crossings, 1.0) == 1990.0
+    assert crossing(crossings, 1.1) == 1600.0
+    # the only one, though the speeds above it lie outside
+    assert crossing(diagram(np.nan, 1990.0), 1.1) == 1990.0
+    with pytest.raises(ValueError, match=r"1B of Ref crosses no engine order below .*; choose a higher one"):
+        crossing(diagram(np.nan), 1.0)
 
 
 def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact, monkeypatch):
@@ -132,12 +124,12 @@ def test_a_case_is_run_from_what_it_needs_and_not_at_all_if_it_is_refused(settin
         assert (f"<results>/stability/{name}.nc" in files) == (not reasons[name]) == is_run
 
 
-def test_what_is_chosen_and_a_blade_that_is_not_run(root):
-    settings = with_section(root, "stability", extremes=["lobes"], scenes=["direct"], base="draft")
+def test_what_is_chosen_is_run_of_the_first_blade_in_its_scenes_at_the_level_of_the_run(root):
+    chosen = {"blades": ["L50", "Ref"], "scenes": ["direct"], "fidelity": "draft", "stability": {"extremes": ["lobes"]}}
+    settings = read_settings(root, command_line_document(chosen))
     assert list(stability.values(settings, {})["compared"]) == [f"lobes/{number}__direct" for number in (1, 5, 20)]
-    assert stability.cases(settings)["lobes/1__direct"].model.nodes == 5000
-    settings = read_settings(root, command_line_document({"blades": ["L50"], "tradeoff": {"blade": "Ref"}}))
-    assert filled(tradeoff.EXTENSION.all_targets(Sweep(settings))) == []
+    case = stability.cases(settings)["lobes/1__direct"]
+    assert (case.blade, case.model.nodes) == ("L50", 5000)
 
 
 def test_a_row_of_the_table(contact, monkeypatch):

@@ -49,7 +49,7 @@ def test_every_key_says_what_it_is(rows):
         ("config", "signals.gauges.NAME.angle_deg", "`0`; -180..180 degrees"),
         ("config", "signals.probes_deg", "`[]`; list or []: at least 0, below 360 degrees"),
         ("config", "blades", "required; all; or list: name"),
-        ("config", "tradeoff.scenes", "`all`; all; or list: name"),
+        ("config", "tolerances.scenes", "`all`; all; or list: name"),
         ("blades", "material.density_kg_m3", "1..100000 kg/m³"),
         ("blades", "vary.NAME.step", "required; 1e-12..1e+12"),
         ("blades", "mesh", "required; path"),

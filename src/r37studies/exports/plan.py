@@ -1,47 +1,29 @@
 """exports of config.yaml, and their plan: which files, from what, with which numbers."""
 
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Annotated, Any, Literal
-
-from pydantic import Field
+from typing import Any, Literal
 
 from r37core.base.plain import to_plain
-from r37core.base.speeds import exact_text
-from r37core.config import Settings, si_fields
-from r37core.config.section import ExtensionSection, LeftOut, Rpm, Section, Unique, left_out, option
-from r37core.config.speed_section import word_or_speeds
+from r37core.config import Settings
+from r37core.config.section import ExtensionSection, Section, option
 from r37core.fem.orientation import OURS
 from r37core.plans import paths
 from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
 from r37core.rom.reduction_choice import LINEAR
 
-ModeSpeed = Annotated[float, Field(ge=0, le=1e6)]
-ChosenSpeeds: Any = word_or_speeds("worst", "all")
+FORMATS = ("msh", "vtu", "inp")
+"""Suffixes of the files of a mesh; .inp is a complete CalculiX or Abaqus deck."""
 
 
 class ExportSection(Section):
     """Files of `snakemake exports`."""
 
-    refuse_several = (("stress_speeds_rad_s", "stress_speeds_rpm"),)
-
-    mesh_formats: Unique[Literal["msh", "vtu", "inp"]] = option(
-        "Mesh formats; inp is a complete CalculiX/Abaqus deck", ["msh", "vtu", "inp"]
-    )
-    modes: int = option("Number of modes at each speed", 10, ge=1, le=30)
-    mode_speeds_rad_s: Annotated[Unique[ModeSpeed], Field()] | LeftOut = left_out(
-        "Speeds of the modes; by default rest and structure.maximum_speed_rad_s"
-    )
-    stress_speeds_rad_s: ChosenSpeeds = option(
+    modes: int = option("Number of modes, at rest and at structure.maximum_speed_rad_s", 10, ge=1, le=30)
+    stress_speeds: Literal["worst", "all"] = option(
         "Speeds whose worst instant is written; worst: that of the largest stress of each blade and scene", "worst"
     )
-    stress_speeds_rpm: Unique[Rpm] | LeftOut = left_out("The same speeds in revolutions per minute")
     full_matrices: bool = option("Whether matrices of all nodes (hundreds of MB) replace the reduced ones", False)
-
-    def stress_speeds(self) -> tuple[float, ...] | None:
-        """Speeds (rad/s) that are named; None for `worst` and `all`."""
-        return si_fields(self).get("stress_speeds")
 
 
 SECTION = ExtensionSection("exports", ExportSection, ExportSection())
@@ -61,18 +43,12 @@ class Exports:
     sweep: Sweep
 
     @property
-    def _section(self) -> ExportSection:
-        return self.sweep.settings.section(SECTION)
-
-    @property
     def choice(self) -> dict[str, Any]:
-        """The section of config.yaml, with the speeds (rad/s) of modes and matrices."""
-        exported, highest = self._section, self.sweep.settings.structure.maximum_speed_rad_s
-        return {
-            "modes": exported.modes,
-            "mode_speeds": si_fields(exported).get("mode_speeds", (0.0, highest)),
-            "matrix_speeds": (0.0, 0.5 * highest, highest),
-        }
+        """The number of modes, and the speeds (rad/s) of modes and matrices."""
+        settings = self.sweep.settings
+        highest = settings.structure.maximum_speed_rad_s
+        speeds = {"mode_speeds": (0.0, highest), "matrix_speeds": (0.0, 0.5 * highest, highest)}
+        return {"modes": settings.section(SECTION).modes, **speeds}
 
     def orientation(self, wildcards: Any) -> Any:
         """Axes and unit in which results are written: those of an imported mesh, or the blade's own frame."""
@@ -83,49 +59,21 @@ class Exports:
         """Files that matrices are written from: the reduced model, and the mesh where full ones are wanted."""
         tip_line = self.sweep.settings.structure.boundary.tip_line
         files = {"rom": paths.REDUCED_MODEL.format(blade=wildcards.blade, tip_line=tip_line)}
-        if self._section.full_matrices and wildcards.blade in self.sweep.meshed_blades:
+        if self.sweep.settings.section(SECTION).full_matrices and wildcards.blade in self.sweep.meshed_blades:
             files |= {"mesh": paths.MESH.format(blade=wildcards.blade)}
         return files
-
-    def only_worst(self, wildcards: Any) -> bool:
-        """True where the speed with the largest stress is written alone."""
-        return self._section.stress_speeds() is None and self._section.stress_speeds_rad_s == "worst"
-
-    def speed_files(self, wildcards: Any) -> list[str]:
-        """The simulations among which worst instants are looked for."""
-        files = self.sweep.speed_files(wildcards)
-        chosen = self._section.stress_speeds()
-        if chosen is None:
-            return files
-        wanted = {f"speed_{exact_text(speed)}.npz" for speed in chosen}
-        return [file for file in files if Path(file).name in wanted]
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Files and folders that this run's configuration asks for."""
-    meshed, formats = sweep.meshed_blades, sweep.settings.section(SECTION).mesh_formats
+    meshed = sweep.meshed_blades
     return {
-        EXPORTED_MESH: [{"blade": blade, "format": name} for blade in meshed for name in formats],
+        EXPORTED_MESH: [{"blade": blade, "format": name} for blade in meshed for name in FORMATS],
         EXPORTED_MODES: paths.of("blade", meshed),
         EXPORTED_SURFACE: paths.of("blade", sweep.made_by("geometry")),
         EXPORTED_MATRICES: paths.of("blade", sweep.settings.blades),
         EXPORTED_STRESS: paths.run_keys(sweep.runs_with("stress")),
     }
-
-
-def exported_speeds_are_run(settings: Settings) -> None:
-    """Speeds of `exports` are simulated whatever is found, and within the reduced model's basis."""
-    exported, highest, document = settings.section(SECTION), settings.structure.maximum_speed_rad_s, settings.document
-    run = {speed for plan in settings.speed_plans.values() for speed in plan.certain}
-    key = "stress_speeds_rad_s" if exported.stress_speeds_rpm is None else "stress_speeds_rpm"
-    allowed = "speeds that are simulated whatever a range refines to; name it under speeds, too"
-    for number, speed in enumerate(exported.stress_speeds() or []):
-        if speed not in run:
-            raise document.refusal(f"{getattr(exported, key)[number]:g}", allowed, "exports", key, number)
-    for number, speed in enumerate(exported.mode_speeds_rad_s or []):
-        if speed > highest:
-            allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
-            raise document.refusal(f"{speed:g}", allowed, "exports", "mode_speeds_rad_s", number)
 
 
 def full_matrices_are_linear(settings: Settings) -> None:
@@ -139,7 +87,7 @@ def full_matrices_are_linear(settings: Settings) -> None:
 EXTENSION = Extension(
     name="exports",
     section=SECTION,
-    checks=(exported_speeds_are_run, full_matrices_are_linear),
+    checks=(full_matrices_are_linear,),
     targets=targets,
     look_at="<results>/exports",
     made_on_request=True,

@@ -1,19 +1,15 @@
 """The cases of a preset: what is varied, one parameter at a time, in which blade and scenes, at which level and speeds."""
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Annotated, Any, Literal
-
-from pydantic import Field
+from typing import Any, Literal
 
 from r37core.base.speeds import exact_text
 from r37core.base.varied_number import with_value
-from r37core.config import ConfigError, Settings, checked_scene, plain, scenes_named
-from r37core.config.cross_checks import engine_order_is_known
-from r37core.config.document import ConfigRefusals
+from r37core.config import ConfigError, Settings, checked_scene, plain
 from r37core.config.fidelity import Level
-from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, Unique, either, left_out, option
+from r37core.config.section import ExtensionSection, Unique, either
 from r37core.config.settings import contact_nodes
 from r37core.plans.extension import Extension
 from r37studies.other_models import OWN_MESH, ModelChoice
@@ -39,42 +35,25 @@ def some_of(varied: Collection[str]) -> Any:
     return either(Literal["all"], rows=Unique[Literal[tuple(varied)]])  # type: ignore[misc]
 
 
-class TrialsSection(Section):
-    """Blade, scenes, level and speeds of the cases."""
-
-    blade: Name | LeftOut = left_out("Blade; by default the first one of the run")
-    scenes: AllOrNames = option("Scenes of the run", "all")
-    base: Name | LeftOut = left_out("Fidelity level of all that is not varied; by default that of the run")
-    engine_order: Annotated[int, Field(ge=1, le=100)] | LeftOut = left_out(
-        "Crossing of 1B that the speeds lie about; by default the fastest one"
-    )
-
-
 @dataclass(frozen=True)
 class BaseCase:
-    """The case of a section's blade and level in its scenes, about a crossing of 1B."""
+    """The case of a run's first blade in each of its scenes, at its level, about the fastest crossing of 1B."""
 
     settings: Settings
-    declared: ExtensionSection[Any]
-
-    @property
-    def _section(self) -> TrialsSection:
-        return self.settings.section(self.declared)
 
     def cases(
         self, varied: Varied, chosen: Collection[str], results: Sequence[str], common: Mapping[str, Any]
     ) -> dict[str, Case | str]:
         """A case for each value of what is chosen in each scene that has it, such as a lining, called `what/value__scene`.
 
-        One that this run cannot have is the reason why; a run without the blade has none. `results`: as far as a scene has
-        them, and the energy; `common`: changes of all cases.
+        One that this run cannot have is the reason why. `results`: as far as a scene has them, and the energy; `common`:
+        changes of all cases.
         """
-        settings, section, planned = self.settings, self._section, {}
-        blade = section.blade or settings.blade_names[0]
-        scenes = scenes_named(settings, section.scenes) if blade in settings.blade_names else []
+        settings, planned = self.settings, {}
+        blade = settings.blade_names[0]
         for what in varied if chosen == "all" else chosen:
             key, values = next(iter(varied[what].items()))
-            for value, scene in product(values, [name for name in settings.scene_names if name in scenes]):
+            for value, scene in product(values, settings.scene_names):
                 entry, changes = plain(settings.scene_designs.entries[scene]), {**common, **varied[what], key: value}
                 if key.count(".") == 1 or key.split(".")[1] in entry:
                     text = value if isinstance(value, str) else exact_text(value)
@@ -89,7 +68,7 @@ class BaseCase:
             for part in ("scene.", "case.", "choice.", "model.")
         )
         settings, chosen, speeds = self.settings, self.settings.blades[blade], changes[SPEEDS]
-        level = settings.levels[changes.get(LEVEL, self._section.base or settings.fidelity_name)]
+        level = settings.levels[changes.get(LEVEL, settings.fidelity_name)]
         # matrices have contact nodes, and no stress
         if chosen.is_matrices and (model or "snapshots_per_revolution" in choice):
             return f"{blade} is given by matrices"
@@ -113,7 +92,7 @@ class BaseCase:
             results=tuple(results),
             material=chosen.material,
             kept=level.time_integration.kept,
-            crossing=("1B", self._section.engine_order),
+            crossing="1B",
             **case,
         )
 
@@ -124,22 +103,6 @@ class BaseCase:
         nodes = level.mesh.nodes if self.settings.blades[blade].has_profiles else OWN_MESH
         boundary_nodes = contact_nodes(self.settings, blade, level.mesh.tip_elements)
         return replace(ModelChoice(nodes, boundary_nodes, level.reduction.fixed_interface_modes), **changes)
-
-    def check_names(self) -> None:
-        """ConfigError unless blade, scenes and base are in their files, and the order in the Campbell diagram."""
-        settings, section, refusals = self.settings, self._section, ConfigRefusals()
-        name = self.declared.name
-        for key, known, document in (
-            ("blade", settings.designs.entries, settings.designs.document),
-            ("scenes", settings.scene_designs.names, settings.scene_designs.document),
-            ("base", settings.levels, settings.levels_document),
-        ):
-            named = getattr(section, key)
-            names = [] if named in (None, "all") else named if isinstance(named, list) else [named]
-            refusals.of(settings.document.known, (name, key), names, known, document)
-        if section.engine_order:
-            refusals.of(engine_order_is_known, settings, (name, "engine_order"), section.engine_order)
-        refusals.tell()
 
 
 def _changed(entry: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -158,14 +121,12 @@ def _changed(entry: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
     return entry
 
 
-def extension(section: ExtensionSection[Any], cases: Callable[[Settings], Mapping[str, Case | str]]) -> Extension:
-    """The extension of a preset, by its section: the table of its cases."""
-    name = section.name
+def extension(section: ExtensionSection[Any], closing: str) -> Extension:
+    """The extension of a preset, by its section: the table of its cases, and the function of the run's last line of it."""
     return Extension(
-        name=name,
+        name=section.name,
         section=section,
-        checks=(lambda settings: BaseCase(settings, section).check_names(),),
-        targets=lambda sweep: {f"<results>/{name}.csv": [{}] if sweep.settings.made(cases) else []},
-        closing=f"r37studies.trials.case_table.closing_of_{name}",
+        targets=lambda _: {f"<results>/{section.name}.csv": [{}]},
+        closing=closing,
         made_on_request=True,
     )

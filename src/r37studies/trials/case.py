@@ -18,7 +18,7 @@ class Case:
 
     - `model`: made for the case, or this run's own on the tip line of this name.
     - `speeds`: rad/s, ascending. With a `crossing` they are shares of its speed in the Campbell diagram of the run.
-    - `crossing`: mode and engine order; without an order the one at the highest speed.
+    - `crossing`: mode whose crossing at the highest speed counts.
     - `results`: as of a scene.
     - `kept`: how much of spectrum and wear, as run_speed takes it.
     - `share_of_limit`: the time step is this share of the blade's stability limit under central differences.
@@ -33,6 +33,6 @@ class Case:
     results: tuple[str, ...]
     material: Material | None
     kept: Mapping[str, int]
-    crossing: tuple[str, int | None] | None = None
+    crossing: str = ""
     share_of_limit: float | None = None
     half_step: bool = False

@@ -4,10 +4,10 @@ from typing import Any
 
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection, Section, option
-from r37core.plans.extension import Extension
 from r37core.plans.extent import JOB_S, Extent, fixed_seconds
 from r37core.time_integration.speed_run import OF_RUNS
 
+from .base_case import extension
 from .case import Case
 
 
@@ -54,10 +54,4 @@ def values(settings: Settings, extent: Extent) -> dict[str, Any]:
     return {"runs": runs, "jobs": JOB_S, "fixed": fixed_seconds(settings, extent)}
 
 
-EXTENSION = Extension(
-    name="estimate",
-    section=SECTION,
-    targets=lambda _: {"<results>/estimate.csv": [{}]},
-    closing="r37studies.trials.estimate_tables.closing",
-    made_on_request=True,
-)
+EXTENSION = extension(SECTION, "r37studies.trials.estimate_tables.closing")

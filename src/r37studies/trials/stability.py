@@ -4,11 +4,11 @@ from dataclasses import replace
 from typing import Any
 
 from r37core.config import Settings
-from r37core.config.section import ExtensionSection, option
+from r37core.config.section import ExtensionSection, Section, option
 from r37core.plans.extent import Extent
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
-from .base_case import CLEARANCE, LOBES, SPEEDS, BaseCase, TrialsSection, Varied, extension, some_of
+from .base_case import CLEARANCE, LOBES, SPEEDS, BaseCase, Varied, extension, some_of
 from .case import HALF_STEP, Case
 
 _CENTRAL_DIFFERENCE = {"choice.integrator": CENTRAL_DIFFERENCE}
@@ -45,7 +45,7 @@ EXTREMES: Varied = {
 """Name -> its values."""
 
 
-class StabilitySection(TrialsSection):
+class StabilitySection(Section):
     """Runs at extremes of the parameters (snakemake stability)."""
 
     extremes: some_of(EXTREMES) = option(  # type: ignore[valid-type]
@@ -63,7 +63,7 @@ def cases(settings: Settings) -> dict[str, Case | str]:
     """Each extreme of this run, and the same with half the step that it takes, in each scene that has what it changes."""
     # above the crossing, as contact stiffens the blade
     common = {SPEEDS: 1.02, "choice.revolutions": 60}
-    planned = BaseCase(settings, SECTION).cases(EXTREMES, settings.section(SECTION).extremes, ["energy"], common)
+    planned = BaseCase(settings).cases(EXTREMES, settings.section(SECTION).extremes, ["energy"], common)
     return planned | {
         f"{name}{HALF_STEP}": case if isinstance(case, str) else replace(case, half_step=True) for name, case in planned.items()
     }
@@ -75,4 +75,4 @@ def values(settings: Settings, extent: Extent) -> dict[str, Any]:
     return {"compared": {name: [f"{name}{HALF_STEP}"] for name in names if not name.endswith(HALF_STEP)}}
 
 
-EXTENSION = extension(SECTION, cases)
+EXTENSION = extension(SECTION, "r37studies.trials.case_table.closing_of_stability")

@@ -69,23 +69,18 @@ def run(input: Any, output: Any, params: Any) -> None:
 
 
 def crossing_speed(campbell: xr.Dataset, case: Case) -> float:
-    """Speed (rad/s) of the crossing of a case; without an engine order the highest one in the diagram.
+    """Highest speed (rad/s) in the diagram at which the mode of a case crosses an engine order.
 
     As far as there are some, only crossings count at which all speeds of the case lie in the diagram, too. Raises ValueError
     where there is none.
     """
-    assert case.crossing
-    mode, engine_order = case.crossing
-    speeds = campbell["crossing_speed"].sel(mode=mode)
-    if engine_order:
-        speeds = speeds.sel(engine_order=[engine_order])
+    speeds = campbell["crossing_speed"].sel(mode=case.crossing)
     inside = speeds.where(case.speeds[-1] * speeds <= campbell["speed"].max())
     speed = float(inside.max() if inside.notnull().any() else speeds.max())
     if not np.isfinite(speed):
-        order = f"engine order {engine_order}" if engine_order else "any engine order"
         raise ValueError(
-            f"config.yaml: {mode} of {case.blade} does not cross {order} below structure.maximum_speed_rad_s; choose another "
-            "engine_order, or a higher structure.maximum_speed_rad_s"
+            f"config.yaml: {case.crossing} of {case.blade} crosses no engine order below structure.maximum_speed_rad_s; choose "
+            "a higher one"
         )
     return speed
 

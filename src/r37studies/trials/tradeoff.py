@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 
 from r37core.config import Settings
-from r37core.config.section import ExtensionSection, option
+from r37core.config.section import ExtensionSection, Section, option
 from r37core.plans.extent import Extent
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.speed_run import OF_RUNS
 
-from .base_case import LEVEL, SPEEDS, BaseCase, TrialsSection, Varied, extension, some_of
+from .base_case import LEVEL, SPEEDS, BaseCase, Varied, extension, some_of
 from .case import Case
 
 # a step that is unstable is refused
@@ -35,7 +35,7 @@ PARAMETERS: Varied = {
 """Parameter -> its values, the last of which the others are compared with; of the level all that there are."""
 
 
-class TradeoffSection(TrialsSection):
+class TradeoffSection(Section):
     """Effect and cost of every approximation (snakemake tradeoff)."""
 
     parameters: some_of(PARAMETERS) = option(  # type: ignore[valid-type]
@@ -51,7 +51,7 @@ TABLE = "r37studies.trials.case_table.table"
 def cases(settings: Settings) -> dict[str, Case | str]:
     """One case for each value of each parameter in each scene that has it, at five speeds about the peak."""
     varied, chosen = {**PARAMETERS, "level": {LEVEL: list(settings.levels)}}, settings.section(SECTION).parameters
-    return BaseCase(settings, SECTION).cases(varied, chosen, OF_RUNS, {SPEEDS: tuple(np.linspace(1.0, 1.02, 5).tolist())})
+    return BaseCase(settings).cases(varied, chosen, OF_RUNS, {SPEEDS: tuple(np.linspace(1.0, 1.02, 5).tolist())})
 
 
 def values(settings: Settings, extent: Extent) -> dict[str, Any]:
@@ -62,4 +62,4 @@ def values(settings: Settings, extent: Extent) -> dict[str, Any]:
     return {"compared": {name: names for names in same.values() for name in reversed(names)}}
 
 
-EXTENSION = extension(SECTION, cases)
+EXTENSION = extension(SECTION, "r37studies.trials.case_table.closing_of_tradeoff")

@@ -12,7 +12,7 @@ use rule step as exported_mesh with:
     log:
         "<logs>/exports/{blade}_mesh_{format}.log",
     wildcard_constraints:
-        format="msh|vtu|inp",
+        format="|".join(exports_plan.FORMATS),
     params:
         **step("r37studies.exports.steps.mesh"),
         blade="{blade}",
@@ -49,7 +49,7 @@ use rule step as exported_stress with:
     input:
         mesh=paths.MESH,
         model=sweep.whole_blade_model,
-        speeds=exported.speed_files,
+        speeds=sweep.speed_files,
     output:
         folder=directory(exports_plan.EXPORTED_STRESS),
     log:
@@ -57,7 +57,7 @@ use rule step as exported_stress with:
     params:
         **step("r37studies.exports.steps.stress"),
         speeds=sweep.speeds,
-        only_worst=exported.only_worst,
+        only_worst=settings.section(exports_plan.SECTION).stress_speeds == "worst",
         material=sweep.elastic,
         orientation=exported.orientation,
 
