@@ -2,8 +2,7 @@
 
 Run: make mutants [MUTANTS='--each 20 stress/revolutions.py results/']. A folder stands for each of its modules. A mutation
 is an operator, number, comparison or the like changed at one place; it is killed when a test of its module fails. The sample is
-drawn with a fixed seed, so that it can be repeated. With --tests all tests of a module run on each mutation, and a table tells
-how many each notices, and how many no other one does.
+drawn with a fixed seed, so that it can be repeated.
 """
 
 from __future__ import annotations
@@ -11,12 +10,9 @@ from __future__ import annotations
 import argparse
 import os
 import random
-import re
-import shutil
 import subprocess
 import sys
 import tempfile
-from collections import Counter
 from pathlib import Path
 
 from cosmic_ray.work_db import WorkDB, use_db
@@ -89,11 +85,8 @@ def modules_of(name: str) -> list[str]:
     return modules
 
 
-def mutants_of(module: str, folder: Path, each: int, seconds: float, until: str = "-x") -> list[tuple[WorkItem, WorkResult]]:
-    """Draw `each` mutations of a module in the copy `folder` of the project, and run its tests on every one.
-
-    `until`: pytest's option for where to stop, which without one it does not.
-    """
+def mutants_of(module: str, folder: Path, each: int, seconds: float) -> list[tuple[WorkItem, WorkResult]]:
+    """Draw `each` mutations of a module in the copy `folder` of the project, and run its tests on every one."""
     session, settings = folder / "mutants.sqlite", folder / "mutants.toml"
     session.unlink(missing_ok=True)
     files = (next((ROOT / "tests").glob(f"*/{name}")) for name in tests_of(module).split())
@@ -101,7 +94,7 @@ def mutants_of(module: str, folder: Path, each: int, seconds: float, until: str 
     path = (package_of(module) / module).relative_to(ROOT)
     settings.write_text(
         f'[cosmic-ray]\nmodule-path = "{path}"\ntimeout = {seconds}\nexcluded-modules = []\n'
-        f"test-command = \"{sys.executable} -m pytest {until} -q --tb=no -p no:cacheprovider -m 'not slow' {tests}\"\n"
+        f"test-command = \"{sys.executable} -m pytest -x -q --tb=no -p no:cacheprovider -m 'not slow' {tests}\"\n"
         '[cosmic-ray.distributor]\nname = "local"\n'
     )
     environment = os.environ | {"PYTHONPATH": str(folder / "src")}
@@ -109,13 +102,14 @@ def mutants_of(module: str, folder: Path, each: int, seconds: float, until: str 
     subprocess.run([*cosmic_ray, "init", settings, session], cwd=folder, env=environment, check=True)
     with use_db(session, WorkDB.Mode.open) as work:
         items = sorted((item for item in work.work_items if EQUIVALENT not in item.mutations[0].operator_name), key=_place)
-        drawn = {item.job_id for item in random.Random(37).sample(items, min(each, len(items)))}
+        drawn = {item.job_id: item for item in random.Random(37).sample(items, min(each, len(items)))}
         for item in list(work.work_items):
             if item.job_id not in drawn:
                 work.set_result(item.job_id, WorkResult(WorkerOutcome.SKIPPED))
     subprocess.run([*cosmic_ray, "exec", settings, session], cwd=folder, env=environment, check=True)
     with use_db(session, WorkDB.Mode.open) as work:
-        return [(item, result) for item, (job, result) in _joined(work) if job in drawn]
+        results = dict(work.results)
+    return [(drawn[job], results[job]) for job in sorted(drawn, key=lambda job: _place(drawn[job]))]
 
 
 def _place(item: WorkItem) -> tuple[object, ...]:
@@ -123,26 +117,9 @@ def _place(item: WorkItem) -> tuple[object, ...]:
     return mutation.start_pos, mutation.operator_name, mutation.occurrence
 
 
-def _joined(work: WorkDB) -> list[tuple[WorkItem, tuple[str, WorkResult]]]:
-    items = {item.job_id: item for item in work.work_items}
-    return sorted(((items[job], (job, result)) for job, result in work.results), key=lambda pair: _place(pair[0]))
-
-
 def survived(result: WorkResult) -> bool:
     """Whether no test failed."""
     return result.test_outcome == TestOutcome.SURVIVED
-
-
-def notices(results: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
-    """Of each test that notices a mutation: how many it notices, and how many no other one does."""
-    noticed, alone = Counter[str](), Counter[str]()
-    for _, result in (pair for several in results.values() for pair in several):
-        tests = set(re.findall(r"^(?:FAILED|ERROR) tests/\w+/(\w+\.py(?:::\w+)*)", result.output or "", re.MULTILINE))
-        noticed.update(tests)
-        alone.update(tests if len(tests) == 1 else ())
-    rows = sorted((-alone[test], -number, test) for test, number in noticed.items())
-    lines = [f"| `{test}` | {-number} | {-only} |" for only, number, test in rows]
-    return "\n".join(["| test | mutations noticed | by no other test |", "|---|---|---|", *lines])
 
 
 def score(results: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
@@ -174,7 +151,6 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Whether the tests notice small changes of the code.")
     parser.add_argument("modules", nargs="*", default=list(TESTS), help="modules or folders of the packages")
     parser.add_argument("--each", type=int, default=6, help="mutations of each module")
-    parser.add_argument("--tests", action="store_true", help="what each test notices")
     parser.add_argument("--seconds", type=float, default=300.0, help="longest time of one test run")
     chosen = parser.parse_args()
     try:
@@ -184,19 +160,16 @@ def main() -> None:
     results = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-        for file in filter(None, tracked.split("\0")):
-            (folder / file).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / file, folder / file, follow_symlinks=False)
+        # tracked files as they are now; a link stays one
+        copy = "git ls-files -z | xargs -0 cp --parents --no-dereference --target-directory"
+        subprocess.run(f"{copy} '{folder}'", shell=True, cwd=ROOT, check=True)
         for module in modules:
-            results[module] = mutants_of(module, folder, chosen.each, chosen.seconds, "" if chosen.tests else "-x")
+            results[module] = mutants_of(module, folder, chosen.each, chosen.seconds)
             print(
                 f"{module}: {sum(not survived(result) for _, result in results[module])} of {len(results[module])} killed",
                 flush=True,
             )
     print(score(results))
-    if chosen.tests:
-        print("", notices(results), sep="\n")
 
 
 if __name__ == "__main__":

@@ -6,14 +6,11 @@ The calls are imported when they are first used, so that a word that computes no
 from __future__ import annotations
 
 import argparse
-import logging
 import os
 import signal
 import sys
-import tempfile
 import warnings
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import r37
@@ -43,26 +40,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    logger = logging.getLogger("r37")
-    level = logger.level
     try:
         with warnings.catch_warnings():
             # as one line: whoever uses the command did not write the line of code that warns
             warnings.showwarning = lambda message, *_, **__: print(f"r37: {message}", file=sys.stderr)
-            if options.quiet:
-                logger.setLevel(logging.WARNING)
             options.run(options)
     except (ValueError, MemoryError, r37.InputFileError) as refusal:
         print(f"r37: {refusal}", file=sys.stderr)
         return 1
-    finally:
-        logger.setLevel(level)
     return 0
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="r37", description="blade-tip rubbing in a compressor")
-    parser.set_defaults(quiet=False)
     parser.add_argument("--version", action="version", version=f"r37 {r37.__version__}", help="print the version and end")
     commands = parser.add_subparsers(required=True, metavar="command")
     diagram = commands.add_parser("campbell", help="natural frequencies and crossings of a blade")
@@ -71,8 +61,6 @@ def _parser() -> argparse.ArgumentParser:
     diagram.add_argument("--config", help="a config.yaml in place of the shipped one")
     diagram.add_argument("--blades", help="a blades.yaml in place of the configuration's")
     diagram.add_argument("--fidelity", help="an accuracy level in place of the configuration's")
-    diagram.add_argument("--output", type=Path, help="netCDF file to write the dataset to")
-    diagram.add_argument("--quiet", action="store_true", help="say nothing of the stages")
     check = commands.add_parser("check", help="validate a configuration, and count its simulations")
     check.set_defaults(run=_check)
     check.add_argument("config", nargs="*", help="a config.yaml and files of changes on top; without any the shipped one")
@@ -88,26 +76,17 @@ def _init(options: argparse.Namespace) -> None:
 
 
 def _campbell(options: argparse.Namespace) -> None:
-    from r37core.base.dataset_file import write_dataset
-
     is_file = options.blade.endswith((".yaml", ".yml"))
     if is_file and options.blades is not None:
         raise r37.ConfigError(f"--blades: found {options.blades} beside the file {options.blade}; allowed: one of them")
     file = options.blade if is_file else options.blades
-    _check_output(options.output)
     names = r37.blades(file=file, config=options.config) if is_file else [options.blade]
-    if options.output is not None and len(names) > 1:
-        raise r37.ConfigError(
-            f"--output: found {len(names)} blades in {file}; allowed: one, as in: r37 campbell {names[0]} --blades {file}"
-        )
     for name in names:
         if len(names) > 1:
             print(name)
         chosen = r37.blade(name, file=file, config=options.config)
         dataset = r37.campbell(chosen, fidelity=options.fidelity, config=options.config)
         print(_campbell_table(dataset).to_string(float_format=lambda number: f"{number:.6g}", na_rep=""))
-        if options.output is not None:
-            write_dataset(dataset, options.output)
 
 
 def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
@@ -139,18 +118,3 @@ def _check(options: argparse.Namespace) -> None:
     print(f"level: {settings.fidelity_name}")
     for remark in [*remarks(settings), *remarks_at_end(settings)]:
         print(remark)
-
-
-def _check_output(file: Path | None) -> None:
-    """ConfigError for a file that cannot be written, before what takes minutes."""
-    if file is None:
-        return
-    allowed = "allowed: a file in a folder that is there and can be written"
-    try:
-        # what is moved into the place of a device or a pipe takes it away from others
-        if not file.name or (file.exists() and not file.is_file()):
-            raise r37.ConfigError(f"--output: found {str(file)!r}, a folder, device or pipe; {allowed}")
-        with tempfile.NamedTemporaryFile(dir=file.parent, prefix=f".{file.name[:100]}"):
-            pass
-    except OSError as error:
-        raise r37.ConfigError(f"--output: found {file}, which cannot be written ({error.strerror}); {allowed}") from None

@@ -437,9 +437,7 @@ def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys
     for line in page.splitlines():
         assert main(shlex.split(line, comments=True)[1:]) == 0
         told.append(capsys.readouterr().out)
-    dataset = read_dataset("campbell.nc")
-    xr.testing.assert_identical(dataset, r37.campbell("Ref"))
-    assert f"{dataset['crossing_speed'].sel(mode='1B', engine_order=4).item():.6g}" in told[0]
+    assert f"{r37.campbell('Ref')['crossing_speed'].sel(mode='1B', engine_order=4).item():.6g}" in told[0]
     assert told[1].startswith(f"Ref\n{told[0]}L50\n") and told[1].count("1B") == 2
     assert "blades: Ref, CS100\n" in told[2] and "simulations: sweep 12\n" in told[2]
 
@@ -459,16 +457,8 @@ def test_numbers_of_numpy_are_numbers():
     assert command_line_document({"a": [np.int64(1), {"b": np.bool_(True)}]}).content == {"a": [1, {"b": True}]}
 
 
-def test_the_command_refuses_in_one_line(root, capsys, tmp_path):
+def test_the_command_refuses_in_one_line(root, capsys):
     config = str(root / "config/config.yaml")
-    # no folder is made, and nothing is put in the place of a device
-    os.mkfifo(tmp_path / "pipe")
-    unfit = ["", root, f"{config}/x.nc", "/dev/null"]
-    for output in [*unfit, *(tmp_path / name for name in ("none/a.nc", "pipe", f"{300 * 'x'}.nc"))]:
-        assert main(["campbell", "Ref", "--output", str(output)]) == 1
-        told = capsys.readouterr().err
-        assert told.startswith("r37: --output: found ") and told.count("\n") == 1
-    assert [path.name for path in tmp_path.iterdir()] == ["pipe"] and (tmp_path / "pipe").is_fifo()
     assert main(["campbell", "Rex", "--config", config]) == 1
     told = capsys.readouterr()
     assert told.out == "" and told.err.startswith("r37: blade: found 'Rex'; allowed: Ref") and told.err.count("\n") == 1
