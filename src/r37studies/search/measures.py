@@ -11,11 +11,6 @@ MINIMISED = (
 STRUCTURE_MEASURES: dict[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
     "mass_kg": ("mass of the blade", (), ()),
     "frequency_hz": ("frequency of a mode at rest, or at a speed", ("mode",), ("speed_rad_s",)),
-    "frequency_margin_percent": (
-        "distance of a mode's frequency from an engine order at a speed",
-        ("mode", "engine_order", "speed_rad_s"),
-        (),
-    ),
     "crossing_margin_percent": (
         "distance of a mode's crossing with an engine order from a speed",
         ("mode", "engine_order", "speed_rad_s"),

@@ -48,12 +48,7 @@ def structure_value(
         crossing = float(mode_data["crossing_speed"].sel(engine_order=quantity.engine_order))
         # a mode that never meets the engine order is as far from it as can be
         return 100.0 * abs(crossing / speed - 1.0) if math.isfinite(crossing) else 100.0
-    frequency = float(np.interp(speed, mode_data["speed"], mode_data["frequency"]))
-    if quantity.measure == "frequency_hz":
-        return frequency
-    assert quantity.engine_order is not None
-    excitation = quantity.engine_order * speed / (2.0 * np.pi)
-    return 100.0 * abs(frequency / excitation - 1.0)
+    return float(np.interp(speed, mode_data["speed"], mode_data["frequency"]))
 
 
 def contact_value(quantity: QuantitySection, measures: Mapping[str, Mapping[str, float]]) -> tuple[float, float]:
