@@ -62,7 +62,13 @@ class Requirements:
 
     above_yield: Annotated[
         float | None,
-        Key("Largest length of the speeds above yield in most revolutions", "_rad_s", "above_yield_at_most", ge=0, le=1e6),
+        Key(
+            "Largest length of the dangerous speeds: above yield inside the model",
+            "_rad_s",
+            "above_yield_at_most",
+            ge=0,
+            le=1e6,
+        ),
     ] = None
     goodman_share: Annotated[
         float | None, Key("Largest share of the Goodman line", name="goodman_share_at_most", ge=1e-6, le=1e6)

@@ -71,7 +71,7 @@ class Judged:
     def not_looked(self) -> dict[str, str]:
         """Reason why no further runs of a scene are done, where that is so."""
         settings = self.sweep.settings
-        reasons, changing = {}, "the clearance changes within a run, of which the later revolutions alone are judged"
+        reasons, changing = {}, "no further runs of a clearance that changes within a run"
         for name, chosen in settings.scenes.items():
             if chosen.scene.casing.change or chosen.scene.rotor:
                 reasons[name] = changing if chosen.scene.casing.change else "no further runs of a rotor"
