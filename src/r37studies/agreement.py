@@ -22,7 +22,8 @@ _MOST_NAMED = 3
 
 def groups(table: pd.DataFrame) -> list[tuple[tuple[str, ...], pd.DataFrame]]:
     """Rows of each measurement: its blade, scene, quantity and file, in the order of the table."""
-    return [(tuple(map(str, key)), rows) for key, rows in table.groupby(["blade", "scene", "quantity", "file"], sort=False)]
+    keys = ["measurement", "blade", "scene", "quantity", "file"]
+    return [(tuple(map(str, key[1:])), rows) for key, rows in table.groupby(keys, sort=False)]
 
 
 def agreeing(rows: pd.DataFrame) -> pd.Series:

@@ -9,6 +9,7 @@ import pytest
 from test_measured import configured
 
 import r37
+from r37core.config import ConfigError
 from r37core.contact.scene import Lining
 from r37studies.measured.calibration_plan import Calibrated
 from r37studies.measured.rub_tests.lining_fit import fit_lining
@@ -53,6 +54,27 @@ def test_the_law_of_the_simulation_gives_its_numbers_back():
     scene = r37.scene("material_abradable", **{f"lining.{key}": value for key, value in keys.items()}).entry.scene()
     split = rig_forces(depths, replace(scene.lining, thickness=2e-3))
     np.testing.assert_allclose(split, rig_forces(depths, HIDDEN), rtol=1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("has_rows_in_air", [True, False])
+def test_air_before_the_first_touch_is_fitted_of_each_test(has_rows_in_air):
+    """The strokes of two tests begin 50 and 20 um above the lining."""
+    lining = replace(SHIPPED, thickness=2e-3, contact_length=1.6e-4)
+    forces = rig_forces(RAMP, lining)
+    strokes, pressed = [], []
+    for air in (5e-5, 2e-5):
+        before = np.linspace(0.0, air, 5) if has_rows_in_air else []
+        strokes.append(np.append(before, RAMP + air))
+        pressed.append(np.append(np.zeros(len(before)), forces))
+    names = np.repeat(["a", "b"], [len(part) for part in strokes])
+    fit = fit_lining(points(np.concatenate(strokes), np.concatenate(pressed), test=names), SHIPPED)
+    assert fit.contact_length.best == pytest.approx(1.6e-4, rel=1e-3)
+    assert fit.first_touch == pytest.approx({"a": 5e-5, "b": 2e-5}, abs=2e-7)
+
+
+def test_forces_that_fall_with_depth_are_refused():
+    with pytest.raises(ConfigError, match="forces that fall with depth"):
+        points([1e-5, 2e-5, 3e-5, 4e-5], [40.0, 30.0, 20.0, 10.0])
 
 
 @pytest.mark.slow

@@ -55,6 +55,7 @@ def test_rows_without_a_number_are_left_out_and_speeds_ascend(read):
     points = read("speed_rpm;a_mm;uncertainty_mm\n3000;2;0.2\n2000;;0.1\n1000;1;0.1\n")
     assert points.values == (1e-3, 2e-3) and points.deviations == (1e-4, 2e-4)
     assert points.speeds == pytest.approx((1000 * np.pi / 30, 3000 * np.pi / 30))
+    assert points.remark == "1 rows without all numbers left out"
 
 
 def test_a_long_file_has_rows_that_are_chosen_and_a_wide_one_columns(read):
@@ -94,7 +95,7 @@ def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
         ("speed_rad_s,a\n1,1\n", READING, r"no column of displacement_normal.*a \(no number\)"),
         ("speed,a_m\n1,1\n", READING, "no column with a speed, in rad/s or rpm"),
         ("speed_rad_s,a_m\n1,x\n", READING, "found 'x' under a_m, in row 1"),
-        ("speed_rad_s,a_m\n1,-1\n", READING, "found a_m -1; allowed: 0 or more"),
+        ("speed_rad_s,a_m\n1,-1\n", READING, "found displacement_normal -1; allowed: 0 or more"),
         ("speed_rad_s,a_m\n0,1\n", READING, "a speed of 0 rad/s"),
         ("speed_rad_s,a_m\n,\n", READING, "no row with all numbers"),
         ("speed_rad_s,a_m\n1,0\n", READING, "values that are all 0"),
@@ -103,7 +104,7 @@ def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
         ("speed_rad_s,a_m\n1,1\n", reading(rows={"blade": "A"}), "no column 'blade'"),
         ("speed_rad_s,a_m,speed_error_rad_s\n1,1,2\n", reading(uncertainty_percent=None), "neither it nor a column"),
         ("blade,speed_rad_s,a_m\nFan,1,1\n", READING, "found rows of the blade 'Fan'; allowed: those of "),
-        ("speed_rad_s,angle_deg,d_m\n1,0,1\n2,0,1\n", WORN, "over angles at 2 speeds"),
+        ("speed_rad_s,angle_deg,d_m\n1,0,1\n2,0,1\n", reading(quantity="worn_depth"), "over angles at 2 speeds"),
         (
             "speed_rad_s,a_m\n1,1\n2,2\n",
             reading(speed_of="first_above", limit=3.0),
@@ -152,6 +153,79 @@ def test_a_time_signal_is_amplitudes_of_its_engine_orders(read):
     rows = zip(text.splitlines(), ["sigma_mm", *len(times) * ["0.2"]], strict=True)
     deviations = read("\n".join(map(",".join, rows)), reading(speed_rad_s=1000.0)).deviations
     np.testing.assert_allclose(deviations, 2e-4 * np.sqrt(2.0 / len(times)))
+
+
+def signal_rows(angle, times, *more):
+    """Rows of a made-up signal of orders 1 and 4, of 20 and 100 um."""
+    values = 20.0 * np.cos(angle) + 100.0 * np.cos(4.0 * angle + 1.0)
+    columns = zip(times, *more, values, strict=True)
+    return "".join(",".join(f"{each:.9g}" for each in row) + "\n" for row in columns)
+
+
+TIMES = np.arange(0.0, 0.6, 2e-4)
+SPEEDS = {"steady": np.full(len(TIMES), 1089.0), "rising": 1089.0 * (1.0 + 0.05 * TIMES / TIMES[-1])}
+NOISE = 1.0 + 1e-3 * np.random.default_rng(0).standard_normal(len(TIMES))
+
+
+@pytest.mark.parametrize("kind, speeds", [("steady", 1), ("rising", 10)])
+@pytest.mark.parametrize("angle_by", ["speed", "key phasor"])
+def test_amplitudes_of_a_signal_survive_a_tachometers_noise_and_a_rising_speed(read, kind, speeds, angle_by):
+    speed = SPEEDS[kind]
+    angle = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(TIMES)))
+    if angle_by == "speed":
+        points = read("time_s,n_rad_s,tip_um\n" + signal_rows(angle, TIMES, speed * NOISE))
+    else:
+        pulses = np.exp(-(((angle - 1.0) % (2.0 * np.pi) - np.pi) ** 2) / 0.05)
+        entry = reading(columns={"key_phasor": "pulse"})
+        points = read("time_s,pulse,tip_um\n" + signal_rows(angle, TIMES, pulses), entry)
+    amplitudes = np.array(points.values).reshape(-1, 2)
+    assert points.orders[:2] == (1, 4) and len(amplitudes) == pytest.approx(speeds, abs=1)
+    np.testing.assert_allclose(amplitudes, np.tile([2e-5, 1e-4], (len(amplitudes), 1)), rtol=0.01)
+    assert min(points.speeds) == pytest.approx(1089.0, rel=0.005) and "coherence 1.00" in points.remark
+
+
+@pytest.mark.parametrize(
+    "text, entry, told",
+    [
+        # a speed that is 0.2% too high
+        ("time_s,tip_um\n" + signal_rows(1089.0 * TIMES, TIMES), reading(speed_rad_s=1091.2), "drift .* were 0.99[78]"),
+        ("time_s,tip_um\n" + signal_rows(1089.0 * TIMES, TIMES), reading(speed_rad_s=1.0), "rows a revolution|revolutions"),
+        ("time_s,n_rpm,a_um\n0,9000,1\n0,9100,2\n", READING, "a time that stands in several rows"),
+        ("time_s,n_rpm,a_um\n0,9000,1\n2,9001,2\n", READING, "rows a revolution at one speed"),
+        ("time_s,p,a_um\n0,0,1\n1,1,2\n", reading(columns={"key_phasor": "p"}), "1 passages of a key phasor"),
+        ("p,a_um\n0,1\n", reading(columns={"key_phasor": "p"}), "no column of times"),
+        ("n_rpm,a_um\n9000,1\n", reading(columns={"key_phasor": "p"}), "no column 'p'"),
+        ("n_rpm,m_rpm,a_um\n9000,1,1\n", READING, "2 columns with a speed"),
+        ("n_rpm,a_um\n9000,1\n", reading(speed_rad_s=5.0), "beside the column n_rpm; allowed: one of them"),
+        ("frequency (Hz),a_um\n9000,1\n", READING, "frequencies, .*, and no speed"),
+        ("f (Hz),a_um\n173.5,1\n", reading(speed_rpm=20820 / 3), "no line near an engine order"),
+        ("n_rpm,a_um\n9,1\n10,2\n11,3\n10,4\n9,5\n", READING, "a sweep up and one down"),
+        ("angle (turns),a_um\n0,1\n1,2\n", WORN, "differ in 'angle .turns.', whose unit is not known"),
+        ("n_rpm,a_um\n9,1e308\n", READING, "found '1e308'"),
+    ],
+)
+def test_a_signal_that_tells_nothing_says_what_would(read, text, entry, told):
+    with pytest.raises(MeasurementError, match=told):
+        read(text, entry)
+
+
+@pytest.mark.parametrize(
+    "text, entry, speeds, values, orders",
+    [
+        # the log of an order tracker, Hz of the vibration beside rpm, a spectrum, and both ways of a sweep
+        ("t_s,n_rpm,a_um\n0,9000,1\n2,9100,2\n4,9200,3\n", READING, (9000, 9100, 9200), (1, 2, 3), (0, 0, 0)),
+        ("n_rpm,f (Hz),a_um\n9000,1387,300\n9100,1391,250\n", READING, (9000, 9100), (300, 250), (0, 0)),
+        ("n_rpm,m_rpm,a_um\n1,9000,1\n", reading(columns={"speed": "m_rpm"}), (9000,), (1,), (0,)),
+        ("f (Hz),a_um\n150,9\n300,40\n301,30\n420,90\n1200,2\n", reading(speed_rpm=9000), (9000, 9000), (9, 40), (1, 2)),
+        ("n_rpm,a_um\n9,1\n10,2\n11,3\n10,4\n9,5\n", reading(sweep="up"), (9, 10, 11), (1, 2, 3), (0, 0, 0)),
+        ("n_rpm,a_um\n9,1\n10,2\n11,3\n10,4\n9,5\n", reading(sweep="down"), (9, 10, 11), (5, 4, 3), (0, 0, 0)),
+        ("speed (U/min),a (mils)\n9000,1\n", READING, (9000,), (25.4,), (0,)),
+    ],
+)
+def test_what_a_file_is_follows_from_its_columns(read, text, entry, speeds, values, orders):
+    points = read(text, entry)
+    assert points.speeds == pytest.approx(tuple(np.pi / 30.0 * np.array(speeds)))
+    assert points.values == pytest.approx(tuple(1e-6 * np.array(values))) and points.orders == orders
 
 
 def test_a_profile_is_turned_to_where_it_fits_and_says_when_it_is_backwards(read):
@@ -236,7 +310,7 @@ def test_a_gauge_is_that_of_the_signals(tmp_path):
     strain = {"quantity": "strain", "gauge": gauge, "statistic": "half_peak_to_peak"}
     (measured,) = configured(tmp_path, [strain], text).made(Measured).all.values()
     assert measured.gauge == Gauge(0.5, 0.3, "pressure", np.pi / 2) and measured.points.values == pytest.approx((2e-4,))
-    assert measured.unit == "1" and measured.title == "strain, half_peak_to_peak"
+    assert measured.unit == "1" and measured.title.startswith("strain at chord 0.5, span 0.3, pressure side")
 
 
 REFUSED = [
@@ -248,6 +322,8 @@ REFUSED = [
     ({"quantity": "strain"}, "strain without gauge; allowed: gauge beside it"),
     ({"probe_deg": 10.0}, "displacement_normal with probe_deg; allowed: probe_deg left out"),
     ({"speed_of": "first_above"}, "first_above without a limit"),
+    ({"statistic": "order", "engine_order": 1000}, "found 1000; allowed: up to half of the .* samples of a revolution"),
+    ({"gain": {"normal": 0.1}}, "a gain and no calibrate"),
     ({"file": "/nowhere/tip.csv"}, "measured.0.file: /nowhere/tip.csv: .*allowed: a CSV with a header"),
 ]
 
@@ -261,6 +337,25 @@ def test_a_measurement_that_fits_nothing_is_refused(tmp_path, entry, told):
 def test_rpm_taken_for_rad_s_are_refused(tmp_path):
     with pytest.raises(ConfigError, match=r"found 12000 rad/s in .*; allowed: up to 4000.*rpm in a column"):
         configured(tmp_path, [{}], "speed_rad_s,a_m\n12000,1e-3\n")
+
+
+def test_speeds_are_checked_as_those_of_a_sweep(tmp_path):
+    with pytest.raises(ConfigError, match=r"measured.0.file: found 0.01\d* rad/s, a revolution of .* steps"):
+        configured(tmp_path, [{}], "speed_rpm,a_m\n0.1,1e-3\n")
+
+
+def test_measurements_of_one_file_are_kept_apart(tmp_path):
+    entries = [
+        {"tip_point": point, "value": column} for point in ("leading_edge", "trailing_edge") for column in ("a_m", "b_m")
+    ]
+    text = "speed_rad_s,a_m,b_m\n1000,1e-3,2e-3\n1100,2e-3,3e-3\n"
+    every = configured(tmp_path, entries, text).made(Measured).all
+    numbers = {name: {"values": [1e-3, 2e-3], "scatter": [0.0, 0.0], "remark": ""} for name in every}
+    table = compared(every, numbers, {("Ref", "abradable"): 0.0})
+    assert [key[2] for key, _ in groups(table)] == [
+        f"displacement_normal{place}, rms" for place in ("", " at the trailing edge") for _ in "ab"
+    ]
+    assert [len(rows) for _, rows in groups(table)] == [2, 2, 2, 2]
 
 
 def test_a_speed_without_a_curve_is_compared_with_the_sweep_about_it(tmp_path):

@@ -9,7 +9,7 @@ import numpy as np
 
 from r37core.base.io import Named
 from r37core.base.plain import to_plain
-from r37core.base.varied_number import BLADE, SCENE, VariedNumber
+from r37core.base.varied_number import BLADE, KINDS, SCENE, VariedNumber
 from r37core.config import BladeSettings, ConfigError, Settings
 from r37core.config.changed_numbers import changed_pair, check_known, nominal_value, scene_numbers
 from r37core.config.section import plain
@@ -17,9 +17,13 @@ from r37core.config.spread import SpreadEntry
 from r37core.contact.scene import Scene
 
 from .measurement_plan import Measured
-from .section import CALIBRATE, CalibrateSection
+from .points import CONFIRMING, GAIN
+from .section import CALIBRATE, MEASURED, CalibrateSection
 
 _LENGTH = VariedNumber(SCENE, "lining.contact_length_m")
+
+FREQUENCIES = VariedNumber("frequencies", "frequencies_percent")
+"""All natural frequencies at rest, in percent of the model's."""
 
 
 @dataclass(frozen=True)
@@ -37,8 +41,12 @@ class Calibrated:
 
     @cached_property
     def spreads(self) -> dict[VariedNumber, SpreadEntry]:
-        """Distribution of each number before; that of the contact length as a rub test gives it."""
-        spreads, file, settings = self.section.spreads, self.section.rub_test, self.settings
+        """Distribution of each number before; that of the contact length as a rub test gives it. Gains come last."""
+        section, file, settings = self.section, self.section.rub_test, self.settings
+        spreads = section.spreads | ({FREQUENCIES: section.frequencies_percent} if section.frequencies_percent else {})
+        for number, each in enumerate(settings.section(MEASURED)):
+            if each.gain:
+                spreads[VariedNumber(GAIN, f"m{number}.{GAIN}")] = each.gain
         if file is None:
             return spreads
         # tables take pandas
@@ -66,8 +74,12 @@ class Calibrated:
         """Value in the configuration of each number, which all measured blades and scenes that have it share."""
         settings, document, values = self.settings, self.settings.document, []
         scenes = {scene: scene_numbers(settings.scene_designs.entries[scene]) for _, scene in self.pairs}
-        check_known(self.spreads, (key for known in scenes.values() for key in known), document, (CALIBRATE.name,))
+        own = [number for number in self.spreads if number.kind in KINDS]
+        check_known(own, (key for known in scenes.values() for key in known), document, (CALIBRATE.name,))
         for number in self.spreads:
+            if number not in own:
+                values.append(1.0 if number.kind == GAIN else 100.0)
+                continue
             path = (CALIBRATE.name, number.section, number.key)
             try:
                 known = {nominal_value(number, settings.blades[blade], scenes[scene]) for blade, scene in self.pairs} - {None}
@@ -82,8 +94,8 @@ class Calibrated:
     @property
     def budget(self) -> list[int]:
         """Number of designs of each round."""
-        entry = self.section
-        return [entry.first, *(min(entry.batch, entry.runs - done) for done in range(entry.first, entry.runs, entry.batch))]
+        entry, last = self.section, self.section.runs - CONFIRMING
+        return [entry.first, *(min(entry.batch, last - done) for done in range(entry.first, last, entry.batch)), CONFIRMING]
 
     def inputs(self) -> dict[str, list[str]]:
         """Files that the designs start from: lists, of each blade and scene."""

@@ -26,7 +26,7 @@ from r37core.time_integration.clearance import NoRoomError
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37studies.gauges import gauge_rows
 
-from .calibration_plan import Calibrated
+from .calibration_plan import FREQUENCIES, Calibrated
 from .observed import ObservedBlade, arrays_of
 from .points import TIP_TIMING, Measurement
 
@@ -88,6 +88,12 @@ def _design(
                 sweep, attributes = blade_sweep(varied, blade, scene, kept=False), structure_attributes(settings, blade)
                 file = sweep.file("contact_model", structures, attributes)
                 observed, made_of = replace(observed, model=read_contact_model(file)), [content_digest(file), made_of]
+            if percent := values.get(FREQUENCIES):
+                squares = (0.01 * percent) ** 2 * observed.model.squared_frequencies
+                observed, made_of = (
+                    replace(observed, model=replace(observed.model, squared_frequencies=squares)),
+                    [percent, made_of],
+                )
             parts = replace(observed.parts, folder=folder / name / blade / scene, made_of=made_of)
             runs = replace(observed, parts=parts)
             # on a bare casing a single run is a matter of chance

@@ -1,7 +1,9 @@
 """A measurement's file (CSV): what its columns are, by their units, and the points that they give."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Set
+from contextlib import contextmanager
+from dataclasses import replace
 from math import pi
 from pathlib import Path
 
@@ -14,20 +16,29 @@ from r37core.config.declaring import si_fields
 from r37studies.measured.csv_cells import read_cells
 
 from .points import STRAIN, TIP_TIMING, VALUES, WORN_DEPTH, Points, feature_speed
-from .section import ASKED, MeasurementError, MeasurementSection
+from .section import ASKED, PHASOR, MeasurementError, MeasurementSection
+from .time_signals import (
+    MOST_SPEEDS,
+    OrderAmplitudes,
+    SignalError,
+    order_amplitudes,
+    passages,
+    spectrum_amplitudes,
+    sweep_legs,
+    turned,
+)
 
-MOST_SPEEDS = 60
-"""Speeds of a measurement that are run; of more, those spread evenly over the curve and its largest value."""
+_LARGEST = 1e30
+_HERTZ = 2.0 * pi
 
-_LARGEST_ORDER, _LEAST_SHARE = 24, 0.1
-"""Engine orders of a time signal that are fitted, and the least share of the largest amplitude that counts."""
-
-_SPEED, _ANGLE, _TIME, _LENGTH, _STRAIN = "speed", "angle", "time", "length", "strain"
+_SPEED, _ANGLE, _TIME, _LENGTH, _STRAIN, _TURNS = "speed", "angle", "time", "length", "strain", "turns"
 _UNITS = {
-    _SPEED: RAD_S | {"rad_s": 1.0, "1/min": RAD_S["rpm"], "hz": 2.0 * pi, "1/s": 2.0 * pi},
-    _ANGLE: {"deg": pi / 180.0, "rad": 1.0},
-    _TIME: {"s": 1.0, "ms": 1e-3},
-    _LENGTH: LENGTH_UNITS | {"mil": 2.54e-5},
+    _SPEED: RAD_S
+    | {"rad_s": 1.0, "1/min": RAD_S["rpm"], "hz": _HERTZ, "1/s": _HERTZ}
+    | {"u/min": RAD_S["rpm"], "krpm": 1e3 * RAD_S["rpm"]},
+    _ANGLE: dict.fromkeys(("deg", "degree", "degrees", "\N{DEGREE SIGN}"), pi / 180.0) | {"rad": 1.0},
+    _TIME: dict.fromkeys(("s", "sec", "seconds"), 1.0) | {"ms": 1e-3, "us": 1e-6},
+    _LENGTH: LENGTH_UNITS | {"mil": 2.54e-5, "mils": 2.54e-5},
     _STRAIN: {"strain": 1.0, "m/m": 1.0, "um/m": 1e-6, "microstrain": 1e-6, "ue": 1e-6},
 }
 _UNCERTAINTY = re.compile(r"uncertainty|sigma|std|deviation|error|(?<![a-z])sd(?![a-z])", re.IGNORECASE)
@@ -48,6 +59,9 @@ def _column(cells: pd.DataFrame, key: str, kind: str, title: str | None = None, 
     """The column of this `title`, or the one that fits. Raises MeasurementError for none of the title, and for several."""
     columns = [each for each, (own, _) in _columns(cells).items() if own == kind]
     fitting = [each for each in columns if (each == title if title else bool(_UNCERTAINTY.search(each)) == uncertain)]
+    if kind == _SPEED and len(fitting) > 1:
+        # beside a speed of the rotor Hz are those of the vibration
+        fitting = [each for each in fitting if not _is_frequency(each)]
     if len(fitting) > 1 or (title and not fitting):
         problem = f"'{title}'" if title else f"{len(fitting)} columns with a {kind}"
         raise MeasurementError(key, f"found {problem}; allowed: one column with a {kind} of the header: {_header(cells)}")
@@ -57,7 +71,7 @@ def _column(cells: pd.DataFrame, key: str, kind: str, title: str | None = None, 
 def _numbers(texts: pd.Series) -> np.ndarray:
     """Numbers of a column in SI units, NaN where a field is empty. Raises MeasurementError for a text."""
     numbers = pd.to_numeric(texts, errors="coerce")
-    strange = texts[numbers.isna() & texts.notna()]
+    strange = texts[~(numbers.abs() <= _LARGEST) & texts.notna()]
     if len(strange):
         place = f"found '{strange.iloc[0]}' under {texts.name}, in row {strange.index[0] + 1} below the header"
         raise MeasurementError("file", f"{place}; allowed: a number with a point")
@@ -68,7 +82,10 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     """Points of a file, and the speeds (rad/s) of its curve where one of these counts. Raises MeasurementError."""
     cells = _counting_rows(file, entry)
     kind = _STRAIN if entry.quantity == STRAIN else _LENGTH
-    axes = {kind: _column(cells, "rows", kind) for kind in (_SPEED, _ANGLE, _TIME)}
+    named = {str(each): column for each, column in entry.columns.items()}
+    axes = {each: _column(cells, "columns", each, named.get(each)) for each in (_SPEED, _ANGLE, _TIME)}
+    if (pulses := named.get(PHASOR)) is not None and pulses not in cells:
+        raise MeasurementError("columns", f"found no column '{pulses}'; the header is: {_header(cells)}")
     title = entry.value
     if title is None and entry.uncertainty in cells:
         # the other one, where a column is named that does not look like an uncertainty
@@ -80,28 +97,80 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
         raise MeasurementError("value", f"{wanted}; the header is: {_header(cells)}")
     is_speed = _kind(value)[0] == _SPEED
     sigma = _column(cells, "uncertainty", _SPEED if is_speed else kind, entry.uncertainty, uncertain=True)
-    columns = {name: column for name, column in {**axes, "value": value, "sigma": sigma}.items() if column}
+    given, found = si_fields(entry).get("speed"), axes[_SPEED]
+    is_spectrum = bool(found and not is_speed and _is_frequency(found) and (given or "freq" in found.lower()))
+    if is_spectrum and given is None:
+        raise MeasurementError(
+            "speed_rad_s", f"found frequencies, {found}, and no speed; allowed: this key, or columns: {{ speed: ... }}"
+        )
+    if found and given and not is_spectrum:
+        raise MeasurementError(
+            "speed_rad_s", f"found it beside the column {found}; allowed: one of them, or rows of the file that count"
+        )
+    if axes[_TIME] is axes[_ANGLE] is None and not is_spectrum:
+        _refuse_unread(cells, found, {*entry.rows, value, sigma})
+    columns = {name: column for name, column in {**axes, PHASOR: pulses, "value": value, "sigma": sigma}.items() if column}
     numbers = {name: _numbers(cells[column]) for name, column in columns.items()}
     known = np.isfinite([*numbers.values()]).all(axis=0)
     if not known.any():
         titles = ", ".join(columns.values())
         raise MeasurementError("file", f"found no row with all numbers in {titles}; allowed: one or more")
     numbers = {name: part[known] for name, part in numbers.items()}
-    if _SPEED not in numbers:
-        if (speed := si_fields(entry).get("speed")) is None:
-            problem = f"found no column with a speed, in rad/s or rpm, among {_header(cells)}"
-            raise MeasurementError("speed_rad_s", f"{problem}; allowed: this key")
-        numbers[_SPEED] = np.full(len(numbers["value"]), speed)
+    points, speeds = _points(numbers, entry, given, is_spectrum=is_spectrum, is_speed=is_speed)
+    dropped = f"{(~known).sum()} rows without all numbers left out" if not known.all() else ""
+    return replace(points, remark="; ".join(filter(None, [points.remark, dropped]))), speeds
+
+
+def _points(
+    numbers: dict[str, np.ndarray], entry: MeasurementSection, given: float | None, *, is_spectrum: bool, is_speed: bool
+) -> tuple[Points, tuple[float, ...]]:
+    """Points of the columns, by what they are: a spectrum, a time signal, one speed, a profile or a curve."""
+    count = len(numbers["value"])
+    if is_spectrum:
+        assert given is not None
+        with _blamed():
+            return _of_orders(
+                spectrum_amplitudes(numbers[_SPEED], numbers["value"], given, entry.engine_order), numbers, entry
+            ), ()
+    if _TIME in numbers:
+        order = np.argsort(numbers[_TIME], kind="stable")
+        numbers = {name: part[order] for name, part in numbers.items()}
+        if not (np.diff(numbers[_TIME]) > 0.0).all():
+            raise MeasurementError("rows", "found a time that stands in several rows; allowed: each once, or rows that count")
+    if PHASOR in numbers:
+        if _TIME not in numbers:
+            raise MeasurementError("columns", f"found a {PHASOR} and no column of times; allowed: both")
+        with _blamed():
+            marks = passages(numbers[_TIME], numbers[PHASOR])
+        inside = (numbers[_TIME] >= marks[0]) & (numbers[_TIME] <= marks[-1])
+        numbers = {name: part[inside] for name, part in numbers.items()}
+        numbers[_TURNS] = np.interp(numbers[_TIME], marks, np.arange(len(marks)))
+        numbers[_SPEED] = np.interp(numbers[_TIME], 0.5 * (marks[1:] + marks[:-1]), 2.0 * pi / np.diff(marks))
+    elif _SPEED not in numbers:
+        if given is None:
+            raise MeasurementError("speed_rad_s", "found no column with a speed, in rad/s or rpm; allowed: this key")
+        numbers[_SPEED] = np.full(count, given)
     if (slow := numbers[_SPEED] <= 0.0).any():
         raise MeasurementError("file", f"found a speed of {numbers[_SPEED][slow][0]:g} rad/s; allowed: above 0")
-    if _TIME in numbers:
-        return _signal_amplitudes(numbers, entry), ()
+    if legs := sweep_legs(numbers[_SPEED]):
+        if entry.sweep is None:
+            raise MeasurementError("sweep", "found a sweep up and one down; allowed: up or down, each a measurement of its own")
+        numbers = {name: part[legs[entry.sweep]] for name, part in numbers.items()}
+    if _TIME in numbers and len(numbers[_TIME]) > 1:
+        turns = numbers.get(_TURNS, turned(numbers[_TIME], numbers[_SPEED]))
+        if np.median(np.diff(turns)) <= 0.5:
+            return _signal(turns, numbers, entry), ()
+        if np.ptp(numbers[_SPEED]) < 0.01 * numbers[_SPEED].max():
+            found = f"{1.0 / np.median(np.diff(turns)):.3g} rows a revolution at one speed"
+            raise MeasurementError(
+                "file", f"found times with {found}; allowed: 2 or more, in their unit, or amplitudes over speeds"
+            )
     if (negative := numbers["value"] < 0.0).any():
-        raise MeasurementError("value", f"found {value} {numbers['value'][negative][0]:g}; allowed: 0 or more")
+        raise MeasurementError("value", f"found {entry.quantity} {numbers['value'][negative][0]:g}; allowed: 0 or more")
     if is_speed:
         # one speed in place of a curve
-        if known.sum() > 1:
-            raise MeasurementError("rows", f"found {known.sum()} speeds of a {entry.speed_of}; allowed: one row, or a curve")
+        if count > 1:
+            raise MeasurementError("rows", f"found {count} speeds of a {entry.speed_of}; allowed: one row, or a curve")
         return Points.collected(numbers[_SPEED], numbers[_SPEED], _deviations(numbers, entry), 0), ()
     if entry.quantity == WORN_DEPTH and _ANGLE in numbers:
         return _profile(numbers, entry), ()
@@ -125,6 +194,22 @@ def _counting_rows(file: Path, entry: MeasurementSection) -> pd.DataFrame:
             raise MeasurementError("rows", f"found no column '{title}'; the header is: {_header(cells)}")
         cells = cells[cells[title].str.strip() == text]
     return cells
+
+
+def _refuse_unread(cells: pd.DataFrame, speed: str | None, read: Set[str | None]) -> None:
+    """Refuse rows of one speed that differ in a number whose unit is not known: their mean would be told of them all."""
+    groups = cells.groupby(speed) if speed else [("", cells)]
+    for title in {*cells} - read - {speed}:
+        numbers = pd.to_numeric(cells[title], errors="coerce")
+        if _kind(title)[0] == "" and any(numbers[rows.index].nunique() > 1 for _, rows in groups):
+            problem = f"found rows of one speed that differ in '{title}', whose unit is not known"
+            raise MeasurementError(
+                "rows", f"{problem}; allowed: a unit of {', '.join(_UNITS[_ANGLE] | _UNITS[_TIME])}, or rows that count"
+            )
+
+
+def _is_frequency(title: str) -> bool:
+    return _kind(title) == (_SPEED, _HERTZ)
 
 
 def _kind(title: str) -> tuple[str, float]:
@@ -184,21 +269,28 @@ def _profile(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Po
     return Points.collected(speeds, values, deviations, 0, angles=tuple(middles.tolist()))
 
 
-def _signal_amplitudes(numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:
-    """Amplitudes of the engine orders of a time signal at one speed, by least squares, of those that stand out."""
+def _signal(turns: np.ndarray, numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:
+    """Amplitudes of the engine orders of a time signal; while the speed changes, of each speed."""
     if entry.quantity in (WORN_DEPTH, TIP_TIMING):
-        raise MeasurementError("file", f"found a column with times; allowed for {entry.quantity}: speeds or angles")
-    times, values, speed = numbers[_TIME], numbers["value"], float(numbers[_SPEED].min())
-    turns, steps = speed * (times - times.min()) / (2.0 * pi), np.diff(np.sort(times))
-    if turns.max() < 2.0 or not steps.max() > 0.0:
-        raise MeasurementError("file", f"found a time signal of {turns.max():.3g} revolutions; allowed: 2 or more")
-    highest = min(_LARGEST_ORDER, int(pi / (speed * float(np.median(steps)))))
-    waves = np.exp(2j * pi * np.arange(1, highest + 1) * turns[:, None])
-    fitted = np.linalg.lstsq(np.column_stack([np.ones(len(turns)), waves.real, waves.imag]), values, rcond=None)[0]
-    amplitudes = np.hypot(fitted[1 : highest + 1], fitted[highest + 1 :])
-    orders = 1 + np.flatnonzero(amplitudes >= _LEAST_SHARE * amplitudes.max())
-    kept = {"value": amplitudes[orders - 1]}
+        raise MeasurementError("file", f"found a time signal; allowed for {entry.quantity}: speeds or angles")
+    with _blamed():
+        found = order_amplitudes(turns, numbers[_SPEED], numbers["value"], entry.engine_order)
+    return _of_orders(found, numbers, entry)
+
+
+def _of_orders(found: OrderAmplitudes, numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:
+    amplitudes = {"value": found.amplitudes.ravel()}
     if "sigma" in numbers:
         # of an amplitude from so many values
-        kept["sigma"] = np.full(len(orders), float(np.sqrt(2.0 * np.mean(numbers["sigma"] ** 2) / len(times))))
-    return Points.collected(speed, kept["value"], _deviations(kept, entry), orders)
+        deviation = np.sqrt(2.0 * np.mean(numbers["sigma"] ** 2) / found.samples)
+        amplitudes["sigma"] = np.repeat(deviation, len(found.orders))
+    speeds, orders = (part.ravel() for part in np.meshgrid(found.speeds, found.orders, indexing="ij"))
+    return Points.collected(speeds, amplitudes["value"], _deviations(amplitudes, entry), orders, remark=found.remark)
+
+
+@contextmanager
+def _blamed() -> Iterator[None]:
+    try:
+        yield
+    except SignalError as error:
+        raise MeasurementError("file", str(error)) from None

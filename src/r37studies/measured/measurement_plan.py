@@ -7,16 +7,17 @@ from typing import Any
 import numpy as np
 
 from r37core.config import ConfigError, Settings
+from r37core.config.cross_checks import slow_run_can_be_done
 from r37core.config.declaring import si_form
 from r37core.config.messages import single_line
-from r37core.config.settings import FARTHEST
+from r37core.config.settings import FARTHEST, length_of_run
 from r37core.plans import paths
 from r37core.plans.extent import Pair
 from r37core.plans.sweep_plan import Sweep
 from r37core.stress.gauge import Gauge
 
 from .points import RMS, STRAIN, TIP_TIMING, VALUES, WORN_DEPTH, Measurement
-from .section import MEASURED, MeasurementError, MeasurementSection
+from .section import CALIBRATE, MEASURED, MeasurementError, MeasurementSection
 
 NEAR, _FEWEST = 0.05, 5
 """About a speed that was measured in place of a curve: how far speeds of the sweep are run, and how many there are at least."""
@@ -93,6 +94,13 @@ class Measured:
         if fastest > highest:
             allowed = f"up to {highest:g}, {FARTHEST:g} times structure.maximum_speed_rad_s; rpm in a column ..._rpm"
             raise refusal("file", f"{fastest:g} rad/s in {entry.file}", allowed)
+        slowest = length_of_run(settings, entry.scene, min((*points.speeds, *speeds)))
+        slow_run_can_be_done(slowest, settings, (MEASURED.name, number, "file"))
+        samples = settings.integration_choice(entry.blade, entry.scene, 0.0).samples_per_revolution
+        if 2 * (order := max(points.orders)) > samples:
+            raise refusal("engine_order", f"{order}", f"up to half of the {samples} samples of a revolution at this level")
+        if entry.gain and settings.section(CALIBRATE) is None:
+            raise refusal("gain", "a gain and no calibrate", "both, or none")
         return Measurement(
             **entry.model_dump(include={"file", "blade", "scene", "quantity", "tip_point", "speed_of", "limit"}),
             points=points,

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from r37core.base.dataset_file import read_dataset
@@ -10,6 +11,7 @@ from r37core.results.closing import counted
 from r37core.results.table_file import read_table
 from r37studies.agreement import disagrees, groups, words
 
+from .model_check import FAR
 from .posterior import number_table
 
 
@@ -40,9 +42,10 @@ def closing_of_calibration(results: Path) -> str:
         f"{row.number} {row.best:.3g} ({row.low_95:.3g} to {row.high_95:.3g}{'; ' + row.note if row.note else ''})"
         for row in number_table(dataset).itertuples()
     ]
-    elsewhere = [f"{speed:.5g}" for speed in dataset["speed"].values[dataset["elsewhere"].values > 0.5]]
-    if elsewhere:
-        lines.append(f"on another branch or wrong: {', '.join(elsewhere[:4])} rad/s")
-    if dataset.attrs["disagrees"]:
-        lines.append("no values in these ranges agree with the measurements: the model lacks something, and ranges mean little")
+    far, elsewhere = np.abs(dataset["misfit"].values) > FAR, dataset["elsewhere"].values > 0
+    for text, places in (("on another branch", elsewhere), ("far from the model", far & ~elsewhere)):
+        if speeds := [f"{speed:.5g}" for speed in dataset["speed"].values[places]]:
+            lines.append(f"{text}: {', '.join(speeds[:4])} rad/s")
+    if doubts := dataset.attrs["doubts"]:
+        lines.append(f"the model lacks something, and ranges mean little: {doubts}")
     return ", ".join(lines)

@@ -11,13 +11,19 @@ from r37core.stress.gauge import Gauge
 RMS, VALUES = "rms", "values"
 WORN_DEPTH, STRAIN, TIP_TIMING = "worn_depth", "strain", "tip_timing"
 
+GAIN = "gain"
+"""Kind of a number that a measurement's simulated values are multiplied by."""
+
+CONFIRMING = 4
+"""Last designs of a calibration, at the most likely values."""
+
 
 @dataclass(frozen=True)
 class Points:
     """Measured values in SI units with their standard deviations, at speeds (rad/s).
 
     `angles` (rad) of a profile round the casing, else none; `orders`: engine order of each amplitude, 0 where the value is
-    the measurement's statistic.
+    the measurement's statistic; `remark`: on the file.
     """
 
     speeds: tuple[float, ...]
@@ -25,13 +31,14 @@ class Points:
     deviations: tuple[float, ...]
     orders: tuple[int, ...]
     angles: tuple[float, ...] = ()
+    remark: str = ""
 
     @classmethod
-    def collected(cls, *columns: Any, angles: tuple[float, ...] = ()) -> Self:
+    def collected(cls, *columns: Any, angles: tuple[float, ...] = (), remark: str = "") -> Self:
         """Points of speeds, values, deviations and orders: arrays of shape (points,), or one number that all have."""
         equally_long = np.broadcast_arrays(*map(np.atleast_1d, columns))
         speeds, values, deviations, orders = (tuple(part.tolist()) for part in equally_long)
-        return cls(speeds, values, deviations, orders, angles)
+        return cls(speeds, values, deviations, orders, angles, remark)
 
 
 @dataclass(frozen=True)
@@ -64,9 +71,21 @@ class Measurement:
     def title(self) -> str:
         """Quantity and statistic, for tables, figures and messages."""
         if self.speed_of != VALUES:
-            return f"speed of the {'peak' if self.limit is None else f'first above {self.limit:g}'} of {self.quantity}"
+            return (
+                f"speed of the {'peak' if self.limit is None else f'first above {self.limit:g}'} of {self.quantity}{self.place}"
+            )
         statistic = "engine orders" if any(self.points.orders) else self.statistic
-        return self.quantity if self.quantity == WORN_DEPTH else f"{self.quantity}, {statistic}"
+        return self.quantity if self.quantity == WORN_DEPTH else f"{self.quantity}{self.place}, {statistic}"
+
+    @property
+    def place(self) -> str:
+        """Where it was measured, but for the leading edge."""
+        if self.gauge is not None:
+            place = self.gauge
+            return f" at chord {place.chord:g}, span {place.span:g}, {place.side} side, {np.degrees(place.angle):.3g} degrees"
+        if self.quantity == TIP_TIMING:
+            return f" at {np.degrees(self.probe):.4g} degrees"
+        return "" if self.tip_point == "leading_edge" else " at the trailing edge"
 
     @property
     def run_speeds(self) -> tuple[float, ...]:
@@ -91,11 +110,11 @@ class Measurement:
         """
         if self.speed_of != VALUES:
             curve = np.array([runs[speed][name][0] for speed in self.run_speeds])
-            return np.array([feature_speed(np.array(self.run_speeds), curve, self.limit)]), ""
+            return np.array([feature_speed(np.array(self.run_speeds), curve, self.limit)]), self.points.remark
         if self.points.angles:
             return turned_profile(runs[self.points.speeds[0]][name], self.points)
         points = zip(self.points.speeds, self.points.orders, strict=True)
-        return np.array([runs[speed][name][self.wanted_orders.index(order)] for speed, order in points]), ""
+        return np.array([runs[speed][name][self.wanted_orders.index(order)] for speed, order in points]), self.points.remark
 
 
 def feature_speed(speeds: np.ndarray, values: np.ndarray, limit: float | None) -> float:
@@ -137,7 +156,7 @@ def turned_profile(wear: np.ndarray, points: Points) -> tuple[np.ndarray, str]:
         return float(misfit[turn]), float(turns[turn]), profiles[turn]
 
     (misfit, turn, profile), (backwards, *_) = best(1.0), best(-1.0)
-    remark = f"turned by {np.degrees(turn):.3g} degrees"
+    remark = "; ".join(filter(None, [points.remark, f"turned by {np.degrees(turn):.3g} degrees"]))
     if backwards < 0.5 * misfit and misfit - backwards > 9.0:
         remark += "; fits better when its angles are read backwards"
     return profile, remark

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-import scipy
 import xarray as xr
 
 from r37core.base.variable import about
@@ -15,6 +14,7 @@ from r37core.config.changed_numbers import scene_numbers
 from r37studies.member_values import drawn
 
 from .calibration import Calibration
+from .model_check import checked_model
 
 ENDS = {"low_95": 0.025, "low_68": 0.16, "median": 0.5, "high_68": 0.84, "high_95": 0.975}
 
@@ -25,7 +25,7 @@ TOGETHER = 0.7
 """Correlation from which on measurements identify two numbers together and not each."""
 
 _AT_END = 0.02
-_SURE = 0.99
+_DAMPING = VariedNumber(SCENE, "damping_ratio")
 
 
 def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
@@ -40,15 +40,12 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
         np.array([list(drawn(calibration.spreads, calibration.nominal, share).values()) for share in part])
         for part in (cube, calibration.cube)
     )
-    residuals, deviations = likelihood.residuals(cube[:1])
-    misfit, elsewhere = residuals[:, 0] / deviations[:, 0], likelihood.elsewhere(cube)
+    check = checked_model(calibration, likelihood)
     ends = np.quantile(cube, (0.025, 0.16, 0.84, 0.975), axis=0)
     is_bounded = ((ends[0] < _AT_END) | (ends[3] > 1.0 - _AT_END)).astype(int)
-    means = np.array([fit.at(cube)[0] for fit in likelihood.fits])
+    means, _ = likelihood.predicted(cube)
     # the simulated value is the exponential of what the surrogates have
     ranges = np.exp(np.quantile(means, (0.025, 0.5, 0.975), axis=1)) - calibration.floors
-    degrees = max(int((elsewhere <= 0.5).sum()) - len(names), 1)
-    chance = float(scipy.stats.chi2.cdf((np.where(elsewhere > 0.5, 0.0, misfit) ** 2).sum(), degrees))
     return xr.Dataset(
         {
             "value": (("draw", "number"), values[kept], about("", "drawn values, in the units of the keys")),
@@ -61,8 +58,8 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
             "measured": ("point", calibration.column("values"), about("", "measured value")),
             "deviation": ("point", calibration.column("deviations"), about("", "its deviation")),
             "simulated": (("range", "point"), ranges, about("", "simulated: 2.5, 50 and 97.5% of the draws")),
-            "misfit": ("point", misfit, about("1", "difference over uncertainty at the best")),
-            "elsewhere": ("point", elsewhere, about("1", "probability that the point lies on another branch or is wrong")),
+            "misfit": ("point", check.differences, about("1", "difference over uncertainty of the run that fits best")),
+            "elsewhere": ("point", check.elsewhere.astype(int), about("1", "1: a run at these numbers is on the same branch")),
             "design_value": (("design", "number"), designs, about("", "values")),
             "design_misfit": ("design", calibration.misfits, about("1", "misfit, NaN where a run diverged")),
         },
@@ -72,8 +69,9 @@ def calibration_dataset(calibration: Calibration, count: int) -> xr.Dataset:
             "speed": ("point", calibration.column("speeds"), about("rad s-1", "speed")),
         },
         attrs={
-            "disagrees": int(chance > _SURE or (elsewhere > 0.5).mean() > 0.25),
-            "probability_of_misfit": chance,
+            "doubts": "; ".join(check.doubts),
+            "probability_of_misfit": check.misfit,
+            "probability_of_signs": check.by_chance,
             "log_likelihood_of_best": float(logs[0]),
         },
     )  # fmt: skip
@@ -100,8 +98,14 @@ def notes(dataset: xr.Dataset, name: str) -> list[str]:
     return lines
 
 
+def is_range(dataset: xr.Dataset, number: VariedNumber) -> bool:
+    """True of a damping ratio that the measurements do not tell: scenes have its range, and members nothing of it."""
+    others = dataset.sizes["number"] > 1
+    return number == _DAMPING and others and bool(dataset["width_share"].sel(number=number.name) > UNTOLD)
+
+
 def calibrated_scenes(settings: Settings, dataset: xr.Dataset, scenes: Sequence[str]) -> str:
-    """Text of a file of scenes with the best values."""
+    """Text of a file of scenes with the best values, and with lowest and highest of a damping that is not told."""
     entries, names = {}, map(str, dataset["number"].values)
     best = dict(zip(map(VariedNumber.named, names), dataset["best"].values.tolist(), strict=True))
     for scene in dict.fromkeys(scenes):
@@ -110,7 +114,11 @@ def calibrated_scenes(settings: Settings, dataset: xr.Dataset, scenes: Sequence[
         for number, value in best.items():
             if number.kind == SCENE and number.key in known:
                 content = with_value(content, number.key, float(f"{value:.6g}"))
+                if is_range(dataset, number):
+                    low, high = dataset["quantile"].sel(number=number.name, end=["low_95", "high_95"]).values
+                    row = {"mode": 0, "ratio": value, "lowest": min(low, value), "highest": max(high, value)}
+                    content[number.key] = [{key: float(f"{part:.6g}") for key, part in row.items()} | {"mode": 0}]
         entries[f"{scene}-calibrated"] = content
     others = ", ".join(f"{number.key} {value:.6g}" for number, value in best.items() if number.kind != SCENE)
-    blade_line = f"# Numbers of the blade: {others}.\n" if others else ""
+    blade_line = f"# Others: {others}.\n" if others else ""
     return f"# Most likely values of a calibration; calibration.csv has their ranges.\n{blade_line}{yaml_text(entries)}"

@@ -29,7 +29,8 @@ class Likelihood:
 
     `fits`: a surrogate of each point's value; `measured` and `deviations`, shape (points,), as the surrogates have them;
     `buildable`: probability that a simulation completes. `errors`: of the surrogates that proposed a design, there, and the
-    deviations that they had, shape (designs, points), NaN where the run diverged.
+    deviations that they had, shape (designs, points), NaN where the run diverged. `varied`: how many of the numbers, the first
+    ones, simulations depend on; `gain_logs`: what gains add to simulated values, shape (draws, points).
     """
 
     fits: tuple[Fit, ...]
@@ -37,6 +38,8 @@ class Likelihood:
     deviations: np.ndarray
     buildable: Callable[[np.ndarray], np.ndarray]
     errors: tuple[np.ndarray, np.ndarray]
+    varied: int
+    gain_logs: Callable[[np.ndarray], np.ndarray]
 
     @cached_property
     def widening(self) -> np.ndarray:
@@ -71,24 +74,19 @@ class Likelihood:
 
     def predicted(self, cube: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Simulated values by the surrogates and their deviations, with that by chance, shape (points, draws)."""
-        means, deviations = (np.array(part) for part in zip(*(fit.at(cube) for fit in self.fits), strict=True))
+        there = [fit.at(cube[:, : self.varied]) for fit in self.fits]
+        means, deviations = (np.array(part) for part in zip(*there, strict=True))
         noise = np.array([fit.scale**2 * fit.noise for fit in self.fits])
-        return means, np.sqrt(deviations**2 + noise[:, None])
-
-    def branches(self, cube: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Logarithms of both parts of a point's likelihood, that it fits and that it lies elsewhere, (points, draws)."""
-        residuals, deviations = self.residuals(cube)
-        fits = np.log1p(-ELSEWHERE) + scipy.stats.norm.logpdf(residuals, scale=deviations)
-        return fits, np.log(ELSEWHERE) + scipy.stats.norm.logpdf(residuals, scale=_WIDER * deviations)
+        return means + self.gain_logs(cube).T, np.sqrt(deviations**2 + noise[:, None])
 
     def log(self, cube: np.ndarray) -> np.ndarray:
-        """Logarithm of the likelihood, shape (draws,)."""
-        return self.power * np.logaddexp(*self.branches(cube)).sum(axis=0) + np.log(np.maximum(self.buildable(cube), 1e-300))
-
-    def elsewhere(self, cube: np.ndarray) -> np.ndarray:
-        """Probability that each point lies on another branch, shape (points,), over draws."""
-        fits, other = self.branches(cube)
-        return np.exp(other - np.logaddexp(fits, other)).mean(axis=1)
+        """Logarithm of the likelihood, shape (draws,): each point fits, or lies elsewhere."""
+        residuals, deviations = self.residuals(cube)
+        fits = np.log1p(-ELSEWHERE) + scipy.stats.norm.logpdf(residuals, scale=deviations)
+        other = np.log(ELSEWHERE) + scipy.stats.norm.logpdf(residuals, scale=_WIDER * deviations)
+        return self.power * np.logaddexp(fits, other).sum(axis=0) + np.log(
+            np.maximum(self.buildable(cube[:, : self.varied]), 1e-300)
+        )
 
 
 def draws(log: Callable[[np.ndarray], np.ndarray], numbers: int, count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:

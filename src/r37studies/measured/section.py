@@ -19,9 +19,12 @@ from r37core.config.section import (
     option,
     refused,
 )
-from r37core.config.spread import Percent, Spreads, Width
+from r37core.config.spread import Percent, SpreadEntry, Spreads, Width
 
 from .points import STRAIN, TIP_TIMING, WORN_DEPTH
+
+PHASOR = "key_phasor"
+"""Column of a key phasor's pulses, one a revolution."""
 
 ASKED = "?"
 """Column that is answered with what the header has."""
@@ -50,13 +53,18 @@ class MeasurementSection(Section):
     value: str | LeftOut = left_out("Column with the values, where several may be; ? lists the columns")
     uncertainty: str | LeftOut = left_out("Column with standard deviations, where several may be")
     uncertainty_percent: Percent | LeftOut = left_out("Standard deviation of each value")
-    speed_rad_s: Speed | LeftOut = left_out("Speed, where the file has none")
+    speed_rad_s: Speed | LeftOut = left_out("Speed, where the file has none: of a curve, a time signal or a spectrum")
     speed_rpm: Rpm | LeftOut = left_out("The same speed in revolutions per minute")
+    columns: dict[Literal["speed", "angle", "time", "key_phasor"], str] = option(
+        "Columns of these, where several may be; key_phasor has a pulse each revolution, beside times", {}
+    )
+    sweep: Literal["up", "down"] | LeftOut = left_out("Which of two sweeps of the speed in one file")
     rows: dict[str, str] = option("Rows of a long file that count: text by column", {})
     speed_of: Literal["values", "peak", "first_above"] = option(
         "In place of the values the speed of the largest, or the first speed above a limit", "values"
     )
     limit: Width | LeftOut = left_out("Limit of first_above in SI units")
+    gain: SpreadEntry | LeftOut = left_out("Distribution of measured over true values, as of a gauge factor, that a fit takes")
 
     def _check(self) -> None:
         for key, owner, needing in (
@@ -92,6 +100,8 @@ class CalibrateSection(Spreads):
     rub_test: FileName | LeftOut = left_out(
         "CSV of a rub rig with depth, force, width and thickness: its 95% range of lining.contact_length_m counts"
     )
+
+    frequencies_percent: SpreadEntry | LeftOut = left_out("Natural frequencies at rest, in percent of the model's")
 
     def _check(self) -> None:
         if not self.spreads and self.rub_test is None:

@@ -15,6 +15,7 @@ from r37core.base.dataset_file import write_dataset
 from r37core.base.io import JOB_NEWS, Named, as_list, read_json, write_json, write_text
 from r37core.base.origin import origin
 from r37core.base.plain import from_plain, to_plain
+from r37core.base.varied_number import KINDS
 from r37core.contact.scene import Scene
 from r37core.results.table_file import write_table
 from r37core.sweep.forks import forked_results
@@ -25,7 +26,7 @@ from .calibration_plan import Calibrated
 from .evaluation import observed_blade, simulate
 from .measurement_plan import Measured
 from .points import VALUES, Measurement
-from .posterior import calibrated_scenes, calibration_dataset, number_table
+from .posterior import calibrated_scenes, calibration_dataset, is_range, number_table
 
 _SLIGHTLY_MORE = 1.001
 """Factor of friction that shows by chance how much a value changes."""
@@ -67,11 +68,11 @@ def compared(
     `simulated`: of each measurement `values` at its points, None where a run diverged, `scatter` of these by a small change of
     friction, and a `remark`. `errors`: relative error by mesh and step of each blade and scene, NaN where it is not known.
     """
-    rows = [_rows(each, simulated[name], errors[each.blade, each.scene]) for name, each in measurements.items()]
+    rows = [_rows(name, each, simulated[name], errors[each.blade, each.scene]) for name, each in measurements.items()]
     return pd.concat(rows, ignore_index=True)
 
 
-def _rows(measurement: Measurement, simulated: Mapping[str, Any], error: float) -> pd.DataFrame:
+def _rows(name: str, measurement: Measurement, simulated: Mapping[str, Any], error: float) -> pd.DataFrame:
     points, known = measurement.points, np.array([value is not None for value in simulated["values"]])
     values, scatter = (np.nan_to_num(np.array(simulated[name], float)) for name in ("values", "scatter"))
     # the level's error is one of amplitudes, not of speeds
@@ -81,6 +82,7 @@ def _rows(measurement: Measurement, simulated: Mapping[str, Any], error: float) 
     both = np.hypot(points.deviations, uncertainty)
     return pd.DataFrame(
         {
+            "measurement": name,
             "blade": measurement.blade,
             "scene": measurement.scene,
             "quantity": measurement.title,
@@ -126,5 +128,8 @@ def calibrate(input: Any, output: Any, params: Any) -> None:
     results = Path(output.folder)
     results.mkdir(parents=True)
     draws = pd.DataFrame(dataset["value"].values, columns=dataset["number"].values)
+    # others are of the test and no keys
+    kept = [number for number in calibrated.spreads if number.kind in KINDS and not is_range(dataset, number)]
+    draws = draws[[number.name for number in kept]]
     write_table(draws, results / "members.csv", digits=9)
     write_text(calibrated_scenes(settings, dataset, [scene for _, scene in measured.pairs]), results / "calibrated_scenes.yaml")

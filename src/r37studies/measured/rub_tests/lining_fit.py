@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from scipy.optimize import least_squares
-from scipy.stats import f, t
+from scipy.stats import f, linregress, t
 
 from r37core.contact.laws import worn
 from r37core.contact.scene import Lining
@@ -36,7 +36,8 @@ class LiningFit:
     `contact_length` (m), which goes with the scene's elastic modulus unless it was given; `values` by name: products with the
     contact length (N/m), or moduli (Pa) where that was given; `tangent_modulus` is that of loading beyond yield. `unknown`:
     what the forces cannot tell, or contradict in the law. `outliers`: points left out, counted from 1; `scatter` (N) about the
-    law, rms. `scene`: keys for scenes.yaml, with moduli where the scene's do not fit in their ratios.
+    law, rms. `scene`: keys for scenes.yaml, with moduli where the scene's do not fit in their ratios. `first_touch` (m) by
+    test: depth at which forces begin, of tests in which that is not 0.
     """
 
     contact_length: Estimate
@@ -45,6 +46,7 @@ class LiningFit:
     outliers: tuple[int, ...]
     scatter: float
     scene: dict[str, dict[str, float]]
+    first_touch: dict[str, float]
 
 
 def lining_force(products: Any, test: Any) -> np.ndarray:
@@ -54,20 +56,50 @@ def lining_force(products: Any, test: Any) -> np.ndarray:
     return np.asarray(lining.elastic_modulus * test.width / test.thickness * elastic_part)
 
 
+def first_touches(test: pd.DataFrame) -> dict[str, float]:
+    """Depth (m) at which the forces of a test begin, by its name, of tests with air before it.
+
+    The line through the forces of first contact cuts the axis there, by three standard deviations, or by a tenth of the depth
+    after points without force; the law's own, through 0, curves the other way.
+    """
+    touches, least = {}, 0.02 * test.force.max()
+    for name, points in test[test.depth >= test.deepest].groupby("place", sort=False):
+        loaded = points[points.force > least]
+        if len(loaded) > 2 and loaded.depth.nunique() > 1:
+            line = linregress(loaded.depth, loaded.force)
+            sure = max(3.0 * line.intercept_stderr, 0.01 * loaded.force.max())
+            is_air = (points.depth < loaded.depth.min()) & (points.depth > 0.05 * points.depth.max())
+            if line.slope > 0.0 and (-line.intercept > sure or is_air.any()):
+                touches[str(name)] = float(np.clip(-line.intercept / line.slope, 0.0, loaded.depth.min()))
+    return touches
+
+
 class _Fit:
-    """Least squares for the logarithms that are added to those of `base`, with the singular directions of the Jacobian."""
+    """Least squares for the logarithms that are added to those of `base`, with the singular directions of the Jacobian.
+
+    After them come changes of the depth of first touch, of tests that have one.
+    """
 
     def __init__(self, test: pd.DataFrame, base: np.ndarray, count: int, loss: str = "linear"):
         known, arrays = "uncertainty" in test, SimpleNamespace(**{name: test[name].to_numpy() for name in test})
         self.scale = arrays.uncertainty if known else np.full(len(test), 0.02 * np.max(np.abs(arrays.force)))
         self.measured = arrays.force / self.scale
 
-        def residuals(logs: np.ndarray) -> np.ndarray:
-            return lining_force(np.exp(np.clip(base + logs, -250.0, 250.0)), arrays) / self.scale - self.measured
+        names = [*dict.fromkeys(test.place[test.touch > 0.0])]
+        self.before = (
+            arrays.depth.max() * np.column_stack([test.place == name for name in names]) if names else np.empty((len(test), 0))
+        )
 
-        solution = least_squares(residuals, np.zeros(count), loss=loss, xtol=1e-10, ftol=1e-10, gtol=1e-10, max_nfev=60)
-        self.logs, self.residuals = base + solution.x, residuals(solution.x)
-        self.freedom, self.squares = len(test) - count, float(self.residuals @ self.residuals)
+        def residuals(numbers: np.ndarray) -> np.ndarray:
+            air = self.before @ numbers[count:]
+            moved = SimpleNamespace(**{**vars(arrays), "depth": arrays.depth - air, "deepest": arrays.deepest - air})
+            return lining_force(np.exp(np.clip(base + numbers[:count], -250.0, 250.0)), moved) / self.scale - self.measured
+
+        start = np.zeros(count + len(names))
+        solution = least_squares(residuals, start, loss=loss, xtol=1e-10, ftol=1e-10, gtol=1e-10, max_nfev=60)
+        self.logs, self.residuals = base + solution.x[:count], residuals(solution.x)
+        self.touches = dict(zip(names, arrays.depth.max() * solution.x[count:], strict=True))
+        self.freedom, self.squares = len(test) - len(start), float(self.residuals @ self.residuals)
         # no rig scatters less than 1e-4 of its largest force, or than its stated uncertainty
         self.variance = max(self.squares / max(self.freedom, 1), 1.0 if known else 0.005**2)
         self.left, sizes, self.axes = np.linalg.svd(solution.jac, full_matrices=False)
@@ -80,7 +112,7 @@ class _Fit:
 
     def estimate(self, best: float, axis: np.ndarray) -> Estimate:
         """The estimate of a value whose logarithm changes along `axis`, shape (parameters,)."""
-        parts = self.axes @ axis / self.sizes
+        parts = self.axes @ np.pad(axis, (0, self.axes.shape[1] - len(axis))) / self.sizes
         deviation = np.sqrt(max(parts @ self.scores @ parts, self.variance * (parts @ parts)))
         if self.freedom < 1 or np.any(np.abs(parts * self.sizes)[self.blind] > 1e-3):
             deviation = np.inf
@@ -96,6 +128,9 @@ class _Fit:
 
 def fit_lining(test: pd.DataFrame, lining: Lining, contact_length: float | None = None) -> LiningFit:
     """Fit of the points of `read_rub_test`; `lining`: moduli that a contact length goes with where it (m) is not given."""
+    touches = first_touches(test)
+    air = test.place.map(touches).fillna(0.0)
+    test = test.assign(touch=air, depth=test.depth - air, deepest=test.deepest - air)
     scene_logs = np.log(np.maximum([getattr(lining, name) for name in _MODULI], 1e-100))
     sample = test.iloc[:: 1 + len(test) // 2000]
     strains = np.quantile(np.maximum(sample.deepest / sample.thickness, 1e-9), (0.05, 0.2, 0.4, 0.6, 0.8, 1.0))
@@ -129,6 +164,7 @@ def fit_lining(test: pd.DataFrame, lining: Lining, contact_length: float | None 
         outliers=tuple(int(row) + 1 for row in test.index.difference(points.index)),
         scatter=float(np.sqrt(np.mean((free.residuals * free.scale) ** 2))),
         scene={"lining": {"contact_length_m": length.best, **moduli}},
+        first_touch={name: touch + float(free.touches[name]) for name, touch in touches.items() if name in free.touches},
     )
 
 
@@ -149,7 +185,7 @@ def _unknown(fit: _Fit, test: pd.DataFrame) -> Iterator[str]:
     deviations = np.sqrt(np.maximum(np.diag(fit.scores), fit.variance)) / fit.sizes
     wide = fit.blind | (fit.quantiles[1] * deviations > np.log(10.0))
     for axis in fit.axes[wide]:
-        names = [name for name, part in zip(_MODULI, axis, strict=True) if abs(part) > 0.15]
+        names = [name for name, part in zip(_MODULI, axis, strict=False) if abs(part) > 0.15]
         yield f"{' and '.join(names)}{' apart' if len(names) > 1 else ''}: unloading (column test) or other depths may tell"
     for name in {"speed", "thickness"} & {*test.columns[test.nunique() > 1]} if fit.freedom > 1 else ():
         trend = (fit.residuals + fit.measured) * np.log(test[name] / test[name].mean()).to_numpy()

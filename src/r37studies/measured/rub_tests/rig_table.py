@@ -19,11 +19,15 @@ _UNITS |= {"speed": {"m_s": 1.0}, "test": {"": 1.0}}
 """Quantity of a column -> unit at the end of the column's name -> what one of it is in the SI."""
 
 
+_FALLS = 0.8
+"""Mean force on deeper points, over that on others, below which forces fall with depth."""
+
+
 def read_rub_test(table: Path | str | Mapping[str, Any], constant: Mapping[str, float]) -> pd.DataFrame:
     """Points in SI units: `depth` (m), the `deepest` (m) at its place until then, `force` (N), `thickness` and `width` (m).
 
-    Also `speed` (m/s) and `uncertainty` (N), where the `table`, a CSV file or columns by name, has them. `constant`: thickness
-    and width that all points have. Raises ConfigError, with points counted from 1.
+    `place`: name of the test. Also `speed` (m/s) and `uncertainty` (N), where the `table`, a CSV file or columns by name, has
+    them. `constant`: thickness and width that all points have. Raises ConfigError, with points counted from 1.
     """
     file = Path(table) if isinstance(table, Path | str) else None
     try:
@@ -36,17 +40,26 @@ def read_rub_test(table: Path | str | Mapping[str, Any], constant: Mapping[str, 
 def _points(cells: pd.DataFrame, constant: Mapping[str, float]) -> pd.DataFrame:
     points, columns = pd.DataFrame(dict(constant), index=range(len(cells))), _columns([*cells.columns], constant)
     # without a column of tests each point is a first contact
-    tests = cells[columns.pop("test")[0]].astype(str).to_numpy() if "test" in columns else np.arange(len(cells))
+    has_tests = "test" in columns
+    tests = cells[columns.pop("test")[0]].astype(str).to_numpy() if has_tests else np.arange(len(cells))
     for quantity, (title, factor) in columns.items():
         points[quantity] = factor * pd.to_numeric(cells[title], errors="coerce").to_numpy(float)
         impossible = ~np.isfinite(points[quantity]) | ((points[quantity] <= 0.0) & (quantity not in ("depth", "force")))
         _refuse(impossible, cells[title], "a number, more than 0 but for depth and force")
     points["deepest"] = points.depth.groupby(tests).cummax()
+    points["place"] = tests if has_tests else "all"
     _refuse(points.depth > points.thickness, points.depth, "at most the thickness of the lining, in m")
     pressed = points.force[points.depth > 0.0]
     if len(pressed) < 2 or not pressed.mean() > 0.0:
         numbers = f"{len(pressed)} points with a depth above 0 and a mean force of {pressed.mean():g} N"
         raise ConfigError(f"found {numbers}; allowed: two or more, with forces that are positive while the tool presses")
+    loading = points[(points.depth >= points.deepest) & (points.depth > 0.0)]
+    deep = loading.depth > loading.depth.median()
+    if deep.sum() > 0 and loading.force[deep].mean() < _FALLS * loading.force[~deep].mean():
+        raise ConfigError(
+            "found forces that fall with depth while the tool goes in; allowed: forces that grow, with depths from the "
+            "lining's surface on, and a column test where the tool returns"
+        )
     return points
 
 

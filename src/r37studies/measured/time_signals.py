@@ -1,0 +1,145 @@
+"""Engine orders of time signals and spectra: the rotor's angle, amplitudes, and how steady their phases are."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+LARGEST_ORDER = 24
+"""Largest engine order that is fitted."""
+
+MOST_SPEEDS = 60
+"""Speeds of a measurement that are run; of more, those spread evenly over the curve and its largest value."""
+
+_PART, _STEADY = 4.0, 0.005
+"""Revolutions of a part whose orders are fitted together, and relative change of speed within which parts are averaged."""
+
+_LEAST_SHARE = 0.1
+"""Least share of the largest amplitude that counts."""
+
+_LEAST_COHERENCE, _LONGEST = 0.5, 1e7
+
+
+class SignalError(ValueError):
+    """A signal that tells no engine orders; the message says why and what would help."""
+
+
+@dataclass(frozen=True, eq=False)
+class OrderAmplitudes:
+    """Amplitudes of engine `orders`, shape (speeds, orders), at `speeds` (rad/s), of so many `samples` each; a `remark`."""
+
+    speeds: np.ndarray
+    orders: np.ndarray
+    amplitudes: np.ndarray
+    samples: np.ndarray
+    remark: str = ""
+
+
+def turned(times: np.ndarray, speeds: np.ndarray) -> np.ndarray:
+    """Revolutions since the first of the ascending `times` (s): the integral of the speed (rad/s), whose noise it averages."""
+    steps = 0.5 * (speeds[1:] + speeds[:-1]) * np.diff(times)
+    return np.concatenate([[0.0], np.cumsum(steps)]) / (2.0 * np.pi)
+
+
+def passages(times: np.ndarray, pulses: np.ndarray) -> np.ndarray:
+    """Times (s) at which a key phasor's pulses rise through the middle of their range. Raises SignalError for uneven ones."""
+    middle = 0.5 * (pulses.min() + pulses.max())
+    rises = np.flatnonzero((pulses[:-1] < middle) & (pulses[1:] >= middle))
+    shares = (middle - pulses[rises]) / (pulses[rises + 1] - pulses[rises])
+    found = times[rises] + shares * (times[rises + 1] - times[rises])
+    periods = np.diff(found)
+    if len(periods) < 2 or periods.min() < 0.5 * np.median(periods) or periods.max() > 1.5 * np.median(periods):
+        raise SignalError(
+            f"found {len(found)} passages of a key phasor; allowed: three or more, evenly, one pulse a revolution"
+        )
+    return found
+
+
+def order_amplitudes(turns: np.ndarray, speeds: np.ndarray, values: np.ndarray, wanted: int | None = None) -> OrderAmplitudes:
+    """Amplitudes of the engine orders that stand out, or of the `wanted` one; of each speed while that changes.
+
+    `turns`: revolutions since the start; `speeds` (rad/s), shape (samples,). Parts of a few revolutions are fitted by least
+    squares and their squares averaged: an angle that is a little wrong takes nothing from them. Raises SignalError for fewer
+    than two revolutions, an order above half of the samples of one, and phases that drift: no engine order, or a wrong speed.
+    """
+    total = float(turns[-1] - turns[0])
+    if not 2.0 <= total < _LONGEST:
+        raise SignalError(f"found a time signal of {total:.3g} revolutions; allowed: 2 or more, in the units of the header")
+    highest = min(LARGEST_ORDER, int(0.5 / np.median(np.diff(turns))))
+    if not (wanted or 1) <= highest:
+        raise SignalError(f"found order {wanted or 1}; allowed: up to {highest}, half of the samples of a revolution")
+    count = max(int(total / _PART), 1)
+    parts = np.minimum(((turns - turns[0]) / total * count).astype(int), count - 1)
+    fits = [_fitted(turns[parts == part], values[parts == part], highest) for part in range(count)]
+    waves, rest, noise = (np.array(each) for each in zip(*fits, strict=True))
+    middles = np.array([np.median(speeds[parts == part]) for part in range(count)])
+    width = np.ptp(middles) or 1.0
+    groups = np.clip(np.ceil(np.ptp(middles) / middles.mean() / _STEADY), 1, max(min(count // 2, MOST_SPEEDS), 1))
+    _, places = np.unique(np.minimum((middles - middles.min()) / width * groups // 1, groups - 1), return_inverse=True)
+
+    def of_groups(part: np.ndarray, middle: Callable[..., np.ndarray] = np.mean) -> np.ndarray:
+        return np.array([middle(part[places == group], axis=0) for group in range(places.max() + 1)])
+
+    amplitudes = np.sqrt(np.maximum(of_groups(np.abs(waves) ** 2 - noise[:, None]), 0.0))
+    largest = amplitudes.max(axis=0)
+    orders = np.array([wanted]) if wanted else 1 + np.flatnonzero(largest >= _LEAST_SHARE * largest.max())
+    main = int(orders[largest[orders - 1].argmax()])
+    strongest = waves[:, main - 1]
+    alike = np.abs(of_groups(strongest)) / np.sqrt(of_groups(np.abs(strongest) ** 2) + 1e-300)
+    coherence = float(np.median(alike))
+    if coherence < _LEAST_COHERENCE and count > 1:
+        turn = np.angle(np.sum(strongest[1:] * strongest[:-1].conj())) * count / (2.0 * np.pi * total * main)
+        raise SignalError(
+            f"found phases of engine order {main} that drift (coherence {coherence:.2f}) as if the speed were {1.0 + turn:.5g} "
+            "times as large; allowed: that speed, a column of speed or a key phasor, and a motion of engine orders"
+        )
+    explained = max(1.0 - float(rest.mean() / max(np.var(values), 1e-300)), 0.0)
+    remark = f"engine orders explain {explained:.0%} of the signal, coherence {coherence:.2f}"
+    samples = np.bincount(places[parts])
+    return OrderAmplitudes(of_groups(middles, np.median), orders, amplitudes[:, orders - 1], samples, remark)
+
+
+def spectrum_amplitudes(
+    frequencies: np.ndarray, values: np.ndarray, speed: float, wanted: int | None = None
+) -> OrderAmplitudes:
+    """Amplitudes of the engine orders in a spectrum over `frequencies` (rad/s) at a speed (rad/s): the highest line of each."""
+    ratios = frequencies / speed
+    nearest = np.rint(ratios).astype(int)
+    own = (np.abs(ratios - nearest) <= 0.1) & (nearest >= 1) & (nearest <= (wanted or LARGEST_ORDER))
+    found = {order: float(values[own & (nearest == order)].max()) for order in np.unique(nearest[own]).tolist()}
+    largest = max(found.values(), default=0.0)
+    kept = [order for order, value in found.items() if (order == wanted if wanted else value >= _LEAST_SHARE * largest)]
+    if not kept:
+        raise SignalError(
+            f"found no line near {f'order {wanted}' if wanted else 'an engine order'} of {speed:.5g} rad/s; allowed: some"
+        )
+    remark = (
+        "" if values.max() <= largest else f"the highest line, of order {ratios[values.argmax()]:.3g}, is of no engine order"
+    )
+    amplitudes = np.array([[found[order] for order in kept]])
+    return OrderAmplitudes(np.array([speed]), np.array(kept), amplitudes, np.array([len(values)]), remark)
+
+
+def _fitted(turns: np.ndarray, values: np.ndarray, highest: int) -> tuple[np.ndarray, float, float]:
+    """Complex amplitudes of all orders, the variance of the rest of the signal, and what noise adds to a squared amplitude."""
+    waves = np.exp(2j * np.pi * np.arange(1, highest + 1) * turns[:, None])
+    matrix = np.column_stack([np.ones(len(turns)), waves.real, waves.imag])
+    numbers = np.linalg.lstsq(matrix, values, rcond=None)[0]
+    rest = values - matrix @ numbers
+    variance = float(rest @ rest / max(len(turns) - len(numbers), 1))
+    return numbers[1 : highest + 1] - 1j * numbers[highest + 1 :], variance, 4.0 * variance / len(turns)
+
+
+def sweep_legs(speeds: np.ndarray) -> dict[str, slice]:
+    """Rows of a sweep up and of a sweep down, where the speeds (rad/s) in the order of their rows are both; else none."""
+    turns = {"up": int(speeds.argmax()), "down": int(speeds.argmin())}
+    for first, second in (("up", "down"), ("down", "up")):
+        legs = {first: slice(0, turns[first] + 1), second: slice(turns[first], len(speeds))}
+        if all(_goes(speeds[legs[name]], 1.0 if name == "up" else -1.0, np.ptp(speeds)) for name in legs):
+            return legs
+    return {}
+
+
+def _goes(speeds: np.ndarray, sense: float, span: float) -> bool:
+    """True where speeds go one way over most of the span."""
+    return len(speeds) >= 3 and np.ptp(speeds) > 0.5 * span and np.corrcoef(np.arange(len(speeds)), speeds)[0, 1] * sense > 0.9
