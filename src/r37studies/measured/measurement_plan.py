@@ -96,7 +96,7 @@ class Measured:
             raise refusal("file", f"{fastest:g} rad/s in {entry.file}", allowed)
         slowest = length_of_run(settings, entry.scene, min((*points.speeds, *speeds)))
         slow_run_can_be_done(slowest, settings, (MEASURED.name, number, "file"))
-        samples = settings.integration_choice(entry.blade, entry.scene, 0.0).samples_per_revolution
+        samples = settings.integration_choice(entry.blade, entry.scene).samples_per_revolution
         if 2 * (order := max(points.orders)) > samples:
             raise refusal("engine_order", f"{order}", f"up to half of the {samples} samples of a revolution at this level")
         if entry.gain and settings.section(CALIBRATE) is None:

@@ -18,7 +18,7 @@ use rule step as observed with:
     params:
         **step("r37studies.measured.steps.observe"),
         scene=sweep.plain_scene,
-        choice=lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
+        choice=lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene)),
         measurements=lambda wildcards: to_plain(measured.pair_measurements((wildcards.blade, wildcards.scene))),
         tip_line=lambda wildcards: settings.scenes[wildcards.scene].tip_line,
 
