@@ -97,18 +97,20 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
         raise MeasurementError("value", f"{wanted}; the header is: {_header(cells)}")
     is_speed = _kind(value)[0] == _SPEED
     sigma = _column(cells, "uncertainty", _SPEED if is_speed else kind, entry.uncertainty, uncertain=True)
-    given, found = si_fields(entry).get("speed"), axes[_SPEED]
-    is_spectrum = bool(found and not is_speed and _is_frequency(found) and (given or "freq" in found.lower()))
-    if is_spectrum and given is None:
+    constant_speed, speed_title = si_fields(entry).get("speed"), axes[_SPEED]
+    is_spectrum = bool(
+        speed_title and not is_speed and _is_frequency(speed_title) and (constant_speed or "freq" in speed_title.lower())
+    )
+    if is_spectrum and constant_speed is None:
         raise MeasurementError(
-            "speed_rad_s", f"found frequencies, {found}, and no speed; allowed: this key, or columns: {{ speed: ... }}"
+            "speed_rad_s", f"found frequencies, {speed_title}, and no speed; allowed: this key, or columns: {{ speed: ... }}"
         )
-    if found and given and not is_spectrum:
+    if speed_title and constant_speed and not is_spectrum:
         raise MeasurementError(
-            "speed_rad_s", f"found it beside the column {found}; allowed: one of them, or rows of the file that count"
+            "speed_rad_s", f"found it beside the column {speed_title}; allowed: one of them, or rows of the file that count"
         )
     if axes[_TIME] is axes[_ANGLE] is None and not is_spectrum:
-        _refuse_unread(cells, found, {*entry.rows, value, sigma})
+        _refuse_unread(cells, speed_title, {*entry.rows, value, sigma})
     columns = {name: column for name, column in {**axes, PHASOR: pulses, "value": value, "sigma": sigma}.items() if column}
     numbers = {name: _numbers(cells[column]) for name, column in columns.items()}
     known = np.isfinite([*numbers.values()]).all(axis=0)
@@ -116,21 +118,26 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
         titles = ", ".join(columns.values())
         raise MeasurementError("file", f"found no row with all numbers in {titles}; allowed: one or more")
     numbers = {name: part[known] for name, part in numbers.items()}
-    points, speeds = _points(numbers, entry, given, is_spectrum=is_spectrum, is_speed=is_speed)
+    points, speeds = _points(numbers, entry, constant_speed, is_spectrum=is_spectrum, is_speed=is_speed)
     dropped = f"{(~known).sum()} rows without all numbers left out" if not known.all() else ""
     return replace(points, remark="; ".join(filter(None, [points.remark, dropped]))), speeds
 
 
 def _points(
-    numbers: dict[str, np.ndarray], entry: MeasurementSection, given: float | None, *, is_spectrum: bool, is_speed: bool
+    numbers: dict[str, np.ndarray],
+    entry: MeasurementSection,
+    constant_speed: float | None,
+    *,
+    is_spectrum: bool,
+    is_speed: bool,
 ) -> tuple[Points, tuple[float, ...]]:
     """Points of the columns, by what they are: a spectrum, a time signal, one speed, a profile or a curve."""
     count = len(numbers["value"])
     if is_spectrum:
-        assert given is not None
+        assert constant_speed is not None
         with _blamed():
             return _of_orders(
-                spectrum_amplitudes(numbers[_SPEED], numbers["value"], given, entry.engine_order), numbers, entry
+                spectrum_amplitudes(numbers[_SPEED], numbers["value"], constant_speed, entry.engine_order), numbers, entry
             ), ()
     if _TIME in numbers:
         order = np.argsort(numbers[_TIME], kind="stable")
@@ -147,9 +154,9 @@ def _points(
         numbers[_TURNS] = np.interp(numbers[_TIME], marks, np.arange(len(marks)))
         numbers[_SPEED] = np.interp(numbers[_TIME], 0.5 * (marks[1:] + marks[:-1]), 2.0 * pi / np.diff(marks))
     elif _SPEED not in numbers:
-        if given is None:
+        if constant_speed is None:
             raise MeasurementError("speed_rad_s", "found no column with a speed, in rad/s or rpm; allowed: this key")
-        numbers[_SPEED] = np.full(count, given)
+        numbers[_SPEED] = np.full(count, constant_speed)
     if (slow := numbers[_SPEED] <= 0.0).any():
         raise MeasurementError("file", f"found a speed of {numbers[_SPEED][slow][0]:g} rad/s; allowed: above 0")
     if legs := sweep_legs(numbers[_SPEED]):
@@ -161,9 +168,9 @@ def _points(
         if np.median(np.diff(turns)) <= 0.5:
             return _signal(turns, numbers, entry), ()
         if np.ptp(numbers[_SPEED]) < 0.01 * numbers[_SPEED].max():
-            found = f"{1.0 / np.median(np.diff(turns)):.3g} rows a revolution at one speed"
+            rows = f"{1.0 / np.median(np.diff(turns)):.3g} rows a revolution at one speed"
             raise MeasurementError(
-                "file", f"found times with {found}; allowed: 2 or more, in their unit, or amplitudes over speeds"
+                "file", f"found times with {rows}; allowed: 2 or more, in their unit, or amplitudes over speeds"
             )
     if (negative := numbers["value"] < 0.0).any():
         raise MeasurementError("value", f"found {entry.quantity} {numbers['value'][negative][0]:g}; allowed: 0 or more")
@@ -274,18 +281,18 @@ def _signal(turns: np.ndarray, numbers: Mapping[str, np.ndarray], entry: Measure
     if entry.quantity in (WORN_DEPTH, TIP_TIMING):
         raise MeasurementError("file", f"found a time signal; allowed for {entry.quantity}: speeds or angles")
     with _blamed():
-        found = order_amplitudes(turns, numbers[_SPEED], numbers["value"], entry.engine_order)
-    return _of_orders(found, numbers, entry)
+        tracked = order_amplitudes(turns, numbers[_SPEED], numbers["value"], entry.engine_order)
+    return _of_orders(tracked, numbers, entry)
 
 
-def _of_orders(found: OrderAmplitudes, numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:
-    amplitudes = {"value": found.amplitudes.ravel()}
+def _of_orders(tracked: OrderAmplitudes, numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:
+    amplitudes = {"value": tracked.amplitudes.ravel()}
     if "sigma" in numbers:
         # of an amplitude from so many values
-        deviation = np.sqrt(2.0 * np.mean(numbers["sigma"] ** 2) / found.samples)
-        amplitudes["sigma"] = np.repeat(deviation, len(found.orders))
-    speeds, orders = (part.ravel() for part in np.meshgrid(found.speeds, found.orders, indexing="ij"))
-    return Points.collected(speeds, amplitudes["value"], _deviations(amplitudes, entry), orders, remark=found.remark)
+        deviation = np.sqrt(2.0 * np.mean(numbers["sigma"] ** 2) / tracked.samples)
+        amplitudes["sigma"] = np.repeat(deviation, len(tracked.orders))
+    speeds, orders = (part.ravel() for part in np.meshgrid(tracked.speeds, tracked.orders, indexing="ij"))
+    return Points.collected(speeds, amplitudes["value"], _deviations(amplitudes, entry), orders, remark=tracked.remark)
 
 
 @contextmanager

@@ -1,6 +1,6 @@
 """Whether a model can be right: what direct runs leave of the measured values once its numbers are fitted.
 
-Two things speak against a model: too large differences, and differences of one sign over a stretch of speeds or orders.
+Two things speak against a model: too large differences, and differences of one sign over a segment of speeds or orders.
 One point alone does not: the largest difference is left out of the first. Points are left out as on another branch where runs
 at the same numbers reach them. Source of the second: random signs of the same differences (randomization: Fisher, The
 Design of Experiments, 1935).
@@ -21,7 +21,7 @@ LIKELY_WRONG, BY_CHANCE = 0.9, 0.02
 """Chance that a right model fits better, from which on a misfit is told; and chance that signs are as they are, up to which."""
 
 FAR, _CAPPED = 3.0, 4.0
-"""Difference, over uncertainty, of a point that may lie on another branch; the largest that counts in a stretch of one sign."""
+"""Difference, over uncertainty, of a point that may lie on another branch; the largest that counts in a segment of one sign."""
 
 _BRANCHES = 0.1
 """Largest share, of the points that a number depends on, that may lie on another branch."""
@@ -64,10 +64,10 @@ def checked_model(calibration: Calibration, likelihood: Likelihood) -> ModelChec
     misfit, doubts = float(scipy.stats.chi2.cdf(squares.sum(), degrees)), []
     if misfit > LIKELY_WRONG:
         doubts.append(f"{min(misfit, 0.999):.1%} of right models would fit better")
-    by_chance, stretch = one_sided(differences, owners(calibration))
+    by_chance, segment = one_sided(differences, owners(calibration))
     if by_chance <= BY_CHANCE:
-        low, high = np.sort(calibration.column("speeds")[stretch])[[0, -1]]
-        size = "larger" if differences[stretch].sum() > 0.0 else "smaller"
+        low, high = np.sort(calibration.column("speeds")[segment])[[0, -1]]
+        size = "larger" if differences[segment].sum() > 0.0 else "smaller"
         where = f"{low:.5g} to {high:.5g} rad/s"
         doubts.append(f"measured is {size} than simulated over {where} (by chance: {by_chance:.1%})")
     return ModelCheck(differences, elsewhere, misfit, by_chance, tuple(doubts))
@@ -100,21 +100,21 @@ def _mended(
 
 
 def one_sided(differences: np.ndarray, places: list[np.ndarray]) -> tuple[float, np.ndarray]:
-    """Chance that random signs give a stretch as one-sided as the most one-sided, and places of its points.
+    """Chance that random signs give a segment as one-sided as the most one-sided, and places of its points.
 
-    A stretch, of four points or more, is measured by its sum over the square root of its length. `places`: of the points of
+    A segment, of four points or more, is measured by its sum over the square root of its length. `places`: of the points of
     each measurement in the order in which they are neighbours.
     """
     signs = np.random.default_rng(0).choice([-1.0, 1.0], (_SIGNS, len(differences)))
     signs[0] = 1.0
     drawn, most = signs * np.clip(differences, -_CAPPED, _CAPPED), np.zeros(_SIGNS)
-    stretch = np.arange(0)
+    segment = np.arange(0)
     for own in places:
         sums = np.cumsum(np.pad(drawn[:, own], ((0, 0), (1, 0))), axis=1)
         for length in range(_SHORTEST, len(own) + 1):
             windows = np.abs(sums[:, length:] - sums[:, :-length]) / np.sqrt(length)
             first = int(windows[0].argmax())
             if windows[0, first] > most[0]:
-                stretch = own[first : first + length]
+                segment = own[first : first + length]
             most = np.maximum(most, windows.max(axis=1))
-    return float(np.mean(most >= most[0] * (1.0 - 1e-9))), stretch
+    return float(np.mean(most >= most[0] * (1.0 - 1e-9))), segment

@@ -46,13 +46,13 @@ def passages(times: np.ndarray, pulses: np.ndarray) -> np.ndarray:
     middle = 0.5 * (pulses.min() + pulses.max())
     rises = np.flatnonzero((pulses[:-1] < middle) & (pulses[1:] >= middle))
     shares = (middle - pulses[rises]) / (pulses[rises + 1] - pulses[rises])
-    found = times[rises] + shares * (times[rises + 1] - times[rises])
-    periods = np.diff(found)
+    rising_times = times[rises] + shares * (times[rises + 1] - times[rises])
+    periods = np.diff(rising_times)
     if len(periods) < 2 or periods.min() < 0.5 * np.median(periods) or periods.max() > 1.5 * np.median(periods):
         raise SignalError(
-            f"found {len(found)} passages of a key phasor; allowed: three or more, evenly, one pulse a revolution"
+            f"found {len(rising_times)} passages of a key phasor; allowed: three or more, evenly, one pulse a revolution"
         )
-    return found
+    return rising_times
 
 
 def order_amplitudes(turns: np.ndarray, speeds: np.ndarray, values: np.ndarray, wanted: int | None = None) -> OrderAmplitudes:
@@ -106,9 +106,9 @@ def spectrum_amplitudes(
     ratios = frequencies / speed
     nearest = np.rint(ratios).astype(int)
     own = (np.abs(ratios - nearest) <= 0.1) & (nearest >= 1) & (nearest <= (wanted or LARGEST_ORDER))
-    found = {order: float(values[own & (nearest == order)].max()) for order in np.unique(nearest[own]).tolist()}
-    largest = max(found.values(), default=0.0)
-    kept = [order for order, value in found.items() if (order == wanted if wanted else value >= _LEAST_SHARE * largest)]
+    lines = {order: float(values[own & (nearest == order)].max()) for order in np.unique(nearest[own]).tolist()}
+    largest = max(lines.values(), default=0.0)
+    kept = [order for order, value in lines.items() if (order == wanted if wanted else value >= _LEAST_SHARE * largest)]
     if not kept:
         raise SignalError(
             f"found no line near {f'order {wanted}' if wanted else 'an engine order'} of {speed:.5g} rad/s; allowed: some"
@@ -116,7 +116,7 @@ def spectrum_amplitudes(
     remark = (
         "" if values.max() <= largest else f"the highest line, of order {ratios[values.argmax()]:.3g}, is of no engine order"
     )
-    amplitudes = np.array([[found[order] for order in kept]])
+    amplitudes = np.array([[lines[order] for order in kept]])
     return OrderAmplitudes(np.array([speed]), np.array(kept), amplitudes, np.array([len(values)]), remark)
 
 
