@@ -18,7 +18,12 @@ _LIMITS: dict[str, tuple[str | float, str]] = {
         + _PAGE
         + _FED,
     ),
-    "largest_normal_force": (700.0, "contact forces reach {:.3g} N a node; tested to {:g} N, there 9% off " + _PAGE),
+    # Static force on a patch of 4 mm of tip: 3% off full finite elements of large displacement at 2 kN, 10% at 3.6 kN. Of such
+    # forces a bare casing puts a sixth on the end patch of 0.35 mm, in pulses of 10 us: it is 10% off at 0.3 kN.
+    "largest_normal_force": (
+        2000.0,
+        "contact forces reach {:.3g} N a node; from {:g} N on the tip's ends are 10% off full finite elements " + _PAGE,
+    ),
     "energy_residual_share": (0.02, "up to {:.2g} of the energy is unaccounted for, above {:g}: take a smaller time step"),
     "bounded_share_of_time": (
         0.0,
