@@ -19,6 +19,7 @@ WITHIN = {
     "energy_residual_share": 0.02,
     "bounded_share_of_time": 0.0,
     "friction_power": 900.0,
+    "friction_heat": 9000.0,
     "melting_power": 9000.0,
 }
 
@@ -28,6 +29,7 @@ BEYOND = {
     "energy_residual_share": (0.021, "0.021 of the energy"),
     "bounded_share_of_time": (1e-6, "friction.coefficient shows"),
     "friction_power": (9100.0, "9.1e+03 W"),
+    "friction_heat": (9100.0, "9.1e+03 J"),
 }
 
 
