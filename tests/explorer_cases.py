@@ -7,6 +7,8 @@ import xarray as xr
 from browser import LONGEST
 
 from r37core.explorer import PARTS, write_page
+from r37core.results.events import Danger
+from r37core.results.limits import Cause
 from r37core.time_integration.status import RunStatus
 
 SPEEDS = np.array([900.0, 1000.25, 1100.0, 1200.0, 1300.0])
@@ -30,6 +32,8 @@ def sweep():
     tip = {"tip_point": ["leading_edge", "trailing_edge"]}
     names = ("rms_normal", "rms_tangential", "peak_normal")
     rms = {name: ((*dims, "tip_point"), over(2)) for name in names}
+    left = np.where(missing, np.nan, np.where(SPEEDS > 1050.0, 3.0, np.nan))
+    rms |= {"exit_revolution": (dims, left), "exit_cause": (dims, np.where(left > 0.0, Cause.HEAT, Cause.NONE).astype("i1"))}
     rms |= {"status": (dims, status), "share_of_time_in_contact": (dims, over()), "largest_penetration": (dims, over())}
     stressed = 1e12 * over()
     history = np.full((2, 2, 1, 4), np.nan)
@@ -37,8 +41,11 @@ def sweep():
     stress = {
         **{
             f"max_von_mises_{name}": (dims, factor * stressed)
-            for name, factor in (("ever", 1.0), ("high", 0.8), ("median", 0.5))
+            for name, factor in (("ever", 1.0), ("high", 0.8), ("median", 0.5), ("inside", 0.4))
         },
+        "yield_danger": (dims, np.where(0.4 * stressed > 2e8, Danger.DANGEROUS, (left > 0.0) * Danger.UNKNOWN).astype("i1")),
+        "first_yield_revolution": (dims, np.where(0.4 * stressed > 2e8, 2.0, np.nan)),
+        "revolutions_above_yield": (dims, np.where(0.4 * stressed > 2e8, 70.0, 0.0)),
         "share_of_revolutions_above_yield": (dims, 0.4 * (stressed > 1.38e9)),
         "yield_stress": (dims[:2], np.full((2, 2), 1.38e9)),
         "stress_region": (dims[:2], np.array([["x < 0.197 m"] * 2, ["whole blade", ""]], dtype=object)),

@@ -54,8 +54,13 @@ def datasets():
     values = np.where(status > 0, np.nan, peak[:, None, :] * np.array([1.0, 0.5])[:, None])
     dims, coords = ("blade", "scene", "speed"), {"blade": BLADES, "scene": SCENES, "speed": SPEEDS}
     both = {name: ((*dims, "tip_point"), np.repeat(values[..., None], 2, axis=-1)) for name in ("rms_normal", "rms_tangential")}
-    rms = xr.Dataset(both | {"status": (dims, status)}, coords | {"tip_point": ["leading_edge", "trailing_edge"]})
-    stresses = {f"max_von_mises_{name}": (dims, factor * 1e12 * values) for name, factor in (("median", 1.0), ("ever", 2.0))}
+    # beyond a limit in revolution 30 where the motion is large, on bare casings at all speeds
+    left = np.where((values > 0.7e-3) | (np.arange(2) > 0)[:, None], 30.0, np.nan)
+    both |= {"status": (dims, status), "exit_revolution": (dims, left), "exit_cause": (dims, (2 * (left > 0.0)).astype("i1"))}
+    rms = xr.Dataset(both, coords | {"tip_point": ["leading_edge", "trailing_edge"]})
+    stresses = {f"max_von_mises_{name}": (dims, factor * 1e12 * values) for name, factor in (("inside", 1.0), ("ever", 2.0))}
+    danger = np.where(stresses["max_von_mises_inside"][1] > 0.8e9, Danger.DANGEROUS, np.where(left > 0.0, Danger.UNKNOWN, 0))
+    stresses |= {"yield_danger": (dims, danger.astype("i1")), "share_of_revolutions_above_yield": (dims, 600.0 * values)}
     stresses |= {"yield_stress": (dims[:2], np.full((3, 2), 1.38e9)), "stress_region": (dims[:2], np.full((3, 2), "airfoil"))}
     stress = xr.Dataset(stresses, coords, {"contact": "11 patches: Ref, L50, S100"})
     order = np.arange(0.0, 20.001, 0.01)

@@ -8,12 +8,20 @@ import numpy as np
 import xarray as xr
 
 from r37core.base.units import shown_unit
+from r37core.figures.danger_rows import causes_text, kinds_of
 from r37core.figures.style import ABOVE_YIELD, OUTSIDE, is_linear
+from r37core.results.datasets import response_of
+from r37core.results.exceedance import length_of
+from r37core.results.limits import Cause
 from r37core.results.operating_range import OperatingRange
 from r37core.results.variables import VARIABLES
 
 CURVES = (
+    ("stress", "max_von_mises_inside"),
     ("stress", "max_von_mises_ever"),
+    ("stress", "first_yield_revolution"),
+    ("stress", "revolutions_above_yield"),
+    ("rms", "exit_revolution"),
     ("stress", "max_von_mises_high"),
     ("stress", "max_von_mises_median"),
     ("stress", "share_of_revolutions_above_yield"),
@@ -52,6 +60,9 @@ def explorer_contents(datasets: Mapping[str, xr.Dataset], operating: OperatingRa
         "speeds": packed(rms["speed"].values, 64),
         "status": packed(rms["status"].values),
         "campbell": _campbell(campbell.sel(blade=blades)),
+        "exit_cause": packed(rms["exit_cause"].transpose("blade", "scene", "speed").values),
+        "causes": [cause.text for cause in Cause],
+        "danger": [[_danger(datasets, blade, scene) for scene in scenes] for blade in blades],
         "curves": [_curve(_like(datasets[kind], rms)[name]) for kind, name in CURVES if kind in datasets],
         **_stress(datasets.get("stress"), rms),
         "spectrum": _spectrum(datasets["spectrum"], rms) if "spectrum" in datasets else None,
@@ -87,6 +98,17 @@ def _described(values: xr.DataArray) -> tuple[dict[str, object], float]:
 def _curve(variable: xr.DataArray) -> dict[str, object]:
     about, factor = _described(variable)
     return about | {"values": packed(factor * variable.transpose("blade", "scene", "speed").values)}
+
+
+def _danger(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> dict[str, object]:
+    """Ranges of speeds (rad/s) of each kind of a blade and scene, their lengths together, and limits that are left first."""
+    response = response_of(datasets, blade, scene)
+    ranges = kinds_of(response)
+    return {
+        "ranges": {kind: [[part.begin, part.end] for part in parts] for kind, parts in ranges.items()},
+        "lengths": {kind: length_of(parts) for kind, parts in ranges.items()},
+        "causes": causes_text(response),
+    }
 
 
 def _stress(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object]:

@@ -53,8 +53,8 @@
   }
 
   const { values: speeds } = await unpack(data.speeds);
-  const [status, campbell, curves, yieldStress, history] = await Promise.all(
-    [data.status, data.campbell, data.curves, data.yield_stress, data.history].map(unpackAll),
+  const [status, exitCause, campbell, curves, yieldStress, history] = await Promise.all(
+    [data.status, data.exit_cause, data.campbell, data.curves, data.yield_stress, data.history].map(unpackAll),
   );
   const { frequency, crossing, speeds: { values: campbellSpeeds } } = campbell;
   const maps = await unpackAll({ spectrum: data.spectrum, wear: data.wear });
@@ -86,12 +86,16 @@
 
   const modeText = (mode) => (/^\d+$/.test(mode) ? `mode ${mode}` : mode);
 
-  // of the run at a speed, whatever is shown of it: how often and how far its stress is above yield
-  function yieldText(blade, scene, at) {
-    const [stress, share] = ["max_von_mises_ever", "share_of_revolutions_above_yield"]
-      .map((name) => curves.find((one) => one.name === name)?.values.row(blade, scene)[at]);
-    if (!(stress > yieldStress?.row(blade)[scene])) return "";
-    return `<br>in ${digits(100 * share, 3)}% of the later revolutions, up to ${digits(stress)} MPa, ${OUTSIDE}`;
+  // value of a curve by its name, of the run at a place among the speeds
+  const valueOf = (name, blade, scene, at) => curves.find((one) => one.name === name)?.values.row(blade, scene)[at];
+
+  // of the run at a speed, whatever is shown of it: when its stress passes yield, and when it leaves the model and by which limit
+  function eventsText(blade, scene, at) {
+    const [first, count, exit, inside, ever] = ["first_yield_revolution", "revolutions_above_yield", "exit_revolution", "max_von_mises_inside", "max_von_mises_ever"]
+      .map((name) => valueOf(name, blade, scene, at));
+    const passed = first > 0 ? `<br>above yield first in revolution ${first}, in ${count} of all, ${OUTSIDE}` : "";
+    const left = exit > 0 ? `<br>leaves the model in revolution ${exit}, by ${data.causes[exitCause.row(blade, scene)[at]]}` : "";
+    return `${passed}${left}${ever > 0 ? `<br>largest stress ${digits(ever)} MPa, ${digits(inside)} MPa inside the model` : ""}`;
   }
 
   // name of a curve -> what one of its points says
@@ -100,7 +104,7 @@
     const number = status.row(blade, scene)[at];
     const where = `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(speeds[at])}<br>`;
     if (number === DIVERGED) return `${where}diverged: beyond all that has a number`;
-    return `${where}${quantityText(value, curve.unit)}<br>${STATUS[number]}${yieldText(blade, scene, at)}`;
+    return `${where}${quantityText(value, curve.unit)}<br>${STATUS[number]}${eventsText(blade, scene, at)}`;
   }
 
   // the speeds in operation, shaded
@@ -181,7 +185,7 @@
     fitted.observe(place);
     if (clicks && !place.dataset.listens) {
       place.dataset.listens = "yes";
-      place.on("plotly_click", (event) => { const { x } = event.points[0]; set({ speed: x / factor() }); });
+      place.on("plotly_click", ({ points: [{ x, data: { type } }] }) => { if (type !== "bar") set({ speed: x / factor() }); });
     }
   }
 
@@ -203,6 +207,29 @@
     const links = (data.links ?? []).filter(isHere)
       .flatMap(({ label, file }) => [Object.assign(document.createElement("a"), { href: encodeURI(file), textContent: label }), " "]);
     document.getElementById("links").replaceChildren(...(links.length ? ["Tables and figures: ", ...links] : []));
+  }
+
+  // how long each blade is dangerous and unknown in the chosen scene
+  function drawDanger() {
+    const place = document.getElementById("danger");
+    const scene = sceneIndex();
+    const known = data.blades.map((_, blade) => blade).filter((blade) => ran(blade, scene).length && data.danger[blade][scene].lengths.dangerous !== undefined);
+    place.parentElement.hidden = !yieldStress || !known.length;
+    const table = document.createElement("table");
+    const heads = ["blade", "dangerous (rad/s)", "unknown (rad/s)", "sustained (rad/s)", "largest stress inside the model (MPa)", "leaves the model by"];
+    table.createTHead().insertRow().append(...heads.map((textContent) => Object.assign(document.createElement("th"), { scope: "col", textContent })));
+    const body = table.createTBody();
+    known.forEach((blade) => {
+      const { lengths, causes } = data.danger[blade][scene];
+      const inside = ran(blade, scene).map((at) => valueOf("max_von_mises_inside", blade, scene, at)).filter(Number.isFinite);
+      const row = body.insertRow();
+      row.className = blade === bladeIndex() ? "chosen" : "";
+      row.addEventListener("click", () => set({ blade: data.blades[blade] }));
+      row.insertCell().append(Object.assign(document.createElement("button"), { type: "button", className: "choose", textContent: data.blades[blade] }));
+      const numbers = [lengths.dangerous, lengths.unknown, lengths.sustained, inside.length ? Math.max(...inside) : NaN];
+      [...numbers.map((value) => digits(value, 3)), causes].forEach((textContent) => Object.assign(row.insertCell(), { textContent }));
+    });
+    place.replaceChildren(table);
   }
 
   function drawCampbell() {
@@ -289,6 +316,31 @@
     return [line, found];
   }
 
+  // looks of the kinds of speeds, each a row of bars; sustained speeds are a line on them
+  const KINDS = {
+    dangerous: (color) => ({ marker: { color } }),
+    unknown: (color) => ({ marker: { color, pattern: { shape: "/", fillmode: "replace", size: 6, solidity: 0.35 } }}),
+    sustained: () => ({ marker: { color: theme.colour("text"), line: { color: theme.colour("background"), width: 1 } }, width: 0.3 }),
+  };
+  const SAY = {
+    dangerous: () => "dangerous: above yield, inside the model",
+    unknown: (causes) => `unknown: leaves the model first, by ${causes}`,
+    sustained: () => "sustained: above yield in most later revolutions",
+  };
+
+  // bars below the response: where each of its rows is dangerous, unknown or sustained
+  function dangerTraces(rows) {
+    return Object.entries(KINDS).map(([kind, look]) => {
+      const parts = rows.flatMap(({ name, colour, danger }) => (danger.ranges[kind] ?? []).map((ends) => ({ name, colour, ends, causes: danger.causes })));
+      return {
+        type: "bar", orientation: "h", yaxis: "y2", name: kind, hoverinfo: "text", cliponaxis: false,
+        base: shown(parts.map(({ ends }) => ends[0])), x: shown(parts.map(({ ends }) => ends[1] - ends[0])), y: parts.map(({ name }) => name),
+        text: parts.map(({ name, ends, causes }) => `${name}<br>${SAY[kind](causes)}<br>${speedText(ends[0])} to ${speedText(ends[1])}`), textposition: "none",
+        ...look(parts.map(({ colour }) => colour)),
+      };
+    }).filter(({ x }) => x.length);
+  }
+
   function drawResponse() {
     const curve = curves.find((one) => one.name === state.quantity);
     const scene = sceneIndex();
@@ -296,6 +348,7 @@
     const scenes = state.all ? [scene] : data.scenes.map((_, number) => number);
     const traces = [];
     const crosses = [];
+    const rows = [];
     blades.forEach((blade) => scenes.forEach((number) => {
       const places = ran(blade, number);
       const values = curve.values.row(blade, number);
@@ -305,6 +358,7 @@
       const rank = state.all ? blade : number;
       const name = state.all ? data.blades[blade] : data.scenes[number];
       const colour = colourOf(rank);
+      rows.push({ name, colour, danger: data.danger[blade][number] });
       traces.push({
         x: shown(places.map((at) => speeds[at])), y: places.map((at) => values[at]), name, mode: "lines+markers", hoverinfo: "text",
         line: { color: colour, dash: DASHES[Math.floor(rank / COLOURS.length) % DASHES.length], width: 1.5 },
@@ -324,7 +378,14 @@
     traces.push(...crosses.map((cross) => ({ ...cross, y: cross.x.map(() => top) })));
     const plan = layout(speedAxis(), axis(broken(labelText(curve)), { automargin: true, rangemode: "tozero", title: { text: broken(labelText(curve)), font: { size: 12 } } }));
     if (state.quantity.startsWith("max_von_mises") && yieldStress) markStress(plan, traces, blades, scene);
-    draw("response", traces, plan);
+    const high = Math.min(0.5, 0.065 * rows.length);
+    Object.assign(plan, {
+      barmode: "overlay", bargap: 0.2,
+      yaxis2: { ...theme.axis(), domain: [0, high], type: "category", dtick: 1, categoryarray: rows.map(({ name }) => name), autorange: "reversed", fixedrange: true, automargin: true, tickfont: { size: 10 } },
+    });
+    plan.yaxis.domain = [high + 0.08, 1];
+    Object.assign(plan.xaxis, { anchor: "y2" });
+    draw("response", [...traces, ...dangerTraces(rows)], plan);
   }
 
   // `marks`: speeds that are marked above the map, with a name, a look and a text
@@ -378,19 +439,28 @@
   function drawStress() {
     const here = [bladeIndex(), sceneIndex()];
     const traces = [];
+    const exits = [];
     const plan = layout(axis("revolution"), axis("largest von Mises stress (MPa)"), { shapes: [] });
     history?.speeds.values.forEach((speed, number) => {
       const values = history.values.row(...here, number);
       if (!values.some(Number.isFinite)) return;
+      const exit = valueOf("exit_revolution", ...here, speeds.indexOf(speed));
       const near = Math.abs(speed - state.speed) < 1e-6 * speed;
       traces.push({
         x: values.map((_, at) => at + 1), y: values, name: `${digits(speed)} rad/s`, mode: "lines", hoverinfo: "text",
         line: { color: colourOf(number), width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / COLOURS.length) % 4] },
         text: values.map((value, at) => `${speedText(speed)}<br>revolution ${at + 1}<br>${digits(value)} MPa`),
       });
+      if (exit > 0) {
+        exits.push({
+          x: [exit], y: [values[exit - 1]], name: "leaves the model", legendgroup: "exit", showlegend: !exits.length, mode: "markers", hoverinfo: "text",
+          marker: { symbol: "x-thin-open", size: 11, color: theme.colour("text") },
+          text: [`${speedText(speed)}<br>leaves the model in revolution ${exit}`],
+        });
+      }
     });
     if (traces.length) markStress(plan, traces, [here[0]], here[1]);
-    draw("stress", traces, plan, false);
+    draw("stress", [...traces, ...exits], plan, false);
   }
 
   function drawNow() {
@@ -406,6 +476,7 @@
 
   // a plot, and what of the state it shows beside the cursor
   const DRAWINGS = {
+    danger: [drawDanger, ["blade", "scene"]],
     campbell: [drawCampbell, ["blade", "unit"]],
     response: [drawResponse, ["blade", "scene", "quantity", "unit", "all"]],
     spectrum: [() => drawMap("spectrum", {
@@ -518,7 +589,7 @@
 
   // what the page opens at, the worst run of all blades and scenes: one that diverged, else the largest stress, or motion without stress
   function worstRun() {
-    const loads = ["max_von_mises_ever", "rms_normal"].map((name) => curves.find((curve) => curve.name === name)).filter(Boolean);
+    const loads = ["max_von_mises_inside", "max_von_mises_ever", "rms_normal"].map((name) => curves.find((curve) => curve.name === name)).filter(Boolean);
     let [most, worst] = [[], { speed: speeds[0] }];
     data.blades.forEach((blade, row) => data.scenes.forEach((scene, column) => ran(row, column).forEach((at) => {
       const load = [Number(status.row(row, column)[at] === DIVERGED), ...loads.map((curve) => curve.values.row(row, column)[at])].map((value) => (Number.isFinite(value) ? value : 0));

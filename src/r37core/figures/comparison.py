@@ -11,10 +11,12 @@ from matplotlib.figure import Figure
 
 from r37core.results.columns import LENGTHS, names
 from r37core.results.datasets import with_further_runs
+from r37core.results.measures import leading_edge, ran
 from r37core.rom.reduction_choice import LINEAR
 from r37core.time_integration.status import RunStatus
 
 from . import style
+from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows
 
 _MOST_RANKED = 60
 """Blades whose bars fit in a picture."""
@@ -53,46 +55,46 @@ def draw_comparison(
     stress = None if stress is None else with_further_runs("stress", stress, further_runs)
     styles = style.blade_styles(rms["blade"].values)
     order = shared_order(campbell, float(rms["speed"].min()), float(rms["speed"].max()))
-    directions, edge = ("normal", "tangential"), rms.sel(tip_point="leading_edge")
-    panels_of = {f"rms, {direction} (mm)": 1e3 * edge[f"rms_{direction}"] for direction in directions}
-    if stress is not None:
-        panels_of[style.stress_label(stress)] = stress["max_von_mises_median"]
-    figure, grid = style.panels(len(panels_of), 1, 1.9 * len(panels_of) + 0.5, sharex=True)
-    panels = grid[:, 0]
+    whole = rms if stress is None else xr.merge([rms, stress], join="left", compat="override")
     crossings = campbell["crossing_speed"].sel(mode="1B", engine_order=order).to_series() if order else {}
-    left_out = {blade: crossings[blade] for blade in rms["blade"].values if order}
-    for axes, (label, values) in zip(panels, panels_of.items(), strict=True):
-        for blade in values["blade"].values if order else []:
-            crossing = crossings[blade]
-            about = slice((1.0 - below) * crossing, (1.0 + above) * crossing)
-            curve = values.sel(blade=blade, speed=about).dropna("speed")
-            status = rms["status"].sel(blade=blade, speed=about)
-            diverged = status["speed"].values[status.values == RunStatus.DIVERGED]
-            if curve.size or len(diverged):
-                left_out.pop(blade, None)
-                above_crossing = 100 * (curve["speed"] / crossing - 1.0)
-                if stress is not None and axes is panels[2]:
-                    runs = stress.sel(blade=blade, speed=curve["speed"])
-                    style.stress_band(axes, above_crossing, runs, str(blade), **styles[str(blade)])
-                else:
-                    axes.plot(above_crossing, curve, marker=".", markersize=3, label=str(blade), **styles[str(blade)])
-                style.mark_diverged(axes, 100 * (diverged / crossing - 1.0), styles[str(blade)]["color"])
+    windows = {blade: slice((1.0 - below) * speed, (1.0 + above) * speed) for blade, speed in dict(crossings).items()}
+    responses = {blade: ran(whole.sel(blade=blade, speed=window)) for blade, window in windows.items() if window.start > 0.0}
+    drawn = {blade: response for blade, response in responses.items() if response.sizes["speed"]}
+    curves = {f"rms, {direction} (mm)": f"rms_{direction}" for direction in ("normal", "tangential")}
+    if stress is not None:
+        curves[style.stress_label(stress)] = "max_von_mises_ever"
+    heights = [*[1.8] * len(curves), ROW_HEIGHT * max(len(drawn), 1)]
+    figure, grid = style.panels(len(heights), 1, 0.8 + sum(heights), sharex=True, height_ratios=heights)
+    *panels, rows = grid[:, 0]
+    for axes, (label, name) in zip(panels, curves.items(), strict=True):
+        for blade, response in drawn.items():
+            runs, look = leading_edge(response).dropna("speed", subset=[name]), styles[blade]
+            places = 100 * (runs["speed"] / crossings[blade] - 1.0)
+            if name.startswith("rms"):
+                axes.plot(places, 1e3 * runs[name], marker=".", markersize=3, label=blade, **look)
+            else:
+                style.stress_band(axes, places, runs, blade, **look)
+            diverged = response["speed"].values[response["status"].values == RunStatus.DIVERGED]
+            style.mark_diverged(axes, 100 * (diverged / crossings[blade] - 1.0), look["color"])
         axes.axvline(0.0, color="0.5", linewidth=0.8, linestyle=":")
         axes.set_ylabel(label)
     if stress is not None:
         style.yield_lines(panels[-1], stress["yield_stress"].to_series(), named=True, linear=style.is_linear(stress))
     for axes in panels:
         axes.set_ylim(bottom=0.0)
+    colours = [styles[blade]["color"] for blade in drawn]
+    draw_danger_rows(rows, drawn, colours, lambda blade, speed: 100 * (speed / crossings[blade] - 1.0))
     if order:
-        panels[-1].set_xlabel(f"speed above the crossing of 1B with engine order {order} (%)")
+        rows.set_xlabel(f"speed above the crossing of 1B with engine order {order} (%)")
     else:
         style.say(panels[0], "no crossing of 1B was run: see the figures of each blade")
     # of two designs the better one may be the one whose crossing was not run
+    left_out = {blade: speed for blade, speed in dict(crossings).items() if blade not in drawn}
     texts = [f"{blade} ({'no crossing' if np.isnan(speed) else f'{speed:.0f} rad/s'})" for blade, speed in left_out.items()]
     missing = fill(f"not drawn, as no speed near their own crossing was run: {', '.join(texts)}", 110) if texts else ""
     panels[0].set_title(f"blades in scene {title}\n{missing}".strip())
-    if panels[0].lines[:-1]:
-        style.legend_below(figure, panels, 5)
+    if drawn:
+        style.legend_below(figure, panels, 3, LEGEND)
     return figure
 
 

@@ -18,6 +18,12 @@ def _stress(sweep: Sweep, wildcards: Any) -> str | list[str]:
     return STRESS if any(shown <= run.items() for run in runs) else []
 
 
+_ROWS = (
+    "Rows: speeds that are dangerous (dark: yield is passed in some revolution, inside the model), unknown (hatched: the model "
+    "is left first, by the limits at the row's end), sustained (line: most of the later revolutions are above yield) or below "
+    "yield throughout (light)."
+)
+
 BLADES = "The blades, seen from the side, each in its colour of all figures. The arrow shows the rotation, LE the leading edge."
 """Caption of the blades' picture, which is rendered into its file."""
 
@@ -40,16 +46,17 @@ FIGURES = (
         rule="interactions_figure",
         name="interactions",
         draw="r37core.figures.interaction_map.draw_interactions",
-        files={"campbell": ALL_CAMPBELL, "rms": RMS, "interactions": "<results>/summary.csv"},
+        files={"campbell": ALL_CAMPBELL, "rms": RMS, "interactions": "<results>/summary.csv", "stress": _stress},
         label="interactions",
         caption="Which interactions are dangerous? A Campbell diagram of each scene: engine orders (grey, with their numbers), "
         "and 1B, 1T and 2B, bands over several blades; dashed: other modes, and combinations of two, that interactions on a "
-        "bare casing are named by. A circle is an interaction above yield in most of the later "
-        "revolutions, at its peak speed and engine order; its area is the length of these speeds, or the rms of the motion "
-        "without stress, never less than that of an open ring. Diamonds are above yield in some of the later revolutions, "
-        "open rings in none. Lines along a mark: its speeds above yield. Ranges without an engine order lie on a strip below "
-        "0. '>': the range goes on to an end of the speeds that were run. Red crosses: runs that diverged. "
-        "Of more than six scenes those with the longest lengths.",
+        "bare casing are named by. A circle is a dangerous interaction, above yield in some revolution inside the model, "
+        "at its peak speed and engine order; its area is the length of these speeds, or the rms of the motion "
+        "without stress, never less than that of an open ring. Hatched diamonds are unknown, as the model is left first, "
+        "open rings below yield. Lines along a mark: its dangerous and sustained speeds. Ranges without an engine order lie on "
+        "a strip below 0. '>': the range goes on to an end of the speeds that were run. Red crosses: runs that diverged. "
+        + _ROWS
+        + " Of more than six scenes those with the longest lengths.",
     ),
     Figure(
         rule="response_figure",
@@ -59,10 +66,10 @@ FIGURES = (
         files={"campbell": ALL_CAMPBELL, "rms": RMS, "stress": _stress},
         label="response",
         caption="Response of blade {blade} over speed in every scene. Above: root mean square of the leading edge's "
-        "displacement over the last half of the run, normal to the casing and tangential. Below: von Mises stress of each "
-        "later revolution, from the median of these to the largest (thin), tinted above yield. Dotted: crossings of 1B with "
+        "displacement over the last half of the run, normal to the casing and tangential. Below: largest von Mises stress "
+        "before the run leaves the model, and of all revolutions (thin), tinted above yield. Dotted: crossings of 1B with "
         "engine orders; red crosses: runs that diverged. Open circles: the blade has cut itself free by the end of the run; "
-        "open triangles: its motion or the wear still grows there.",
+        f"open triangles: its motion or the wear still grows there. {_ROWS}",
         arguments=lambda sweep: {"drawn": {"scene": sweep.drawn["scene"]}},
         offered=("motions", "further_runs"),
     ),
@@ -124,9 +131,9 @@ FIGURES = (
         label="around an interaction",
         caption="All blades in scene {scene} around the same interaction: 1B with the engine order that most of them meet. "
         "Over the speed above each blade's own crossing: rms of the leading edge, normal to the casing and tangential, and "
-        "stress from the median of the later revolutions to the largest (thin), tinted above yield. Contact stiffens a blade, "
+        "largest stress inside the model and of all revolutions (thin), tinted above yield. Contact stiffens a blade, "
         "so peaks lie above the crossing. Crosses at the upper edge: runs that diverged. Blades without a run near their own "
-        "crossing are named in the title.",
+        f"crossing are named in the title. {_ROWS}",
         arguments=lambda sweep: {
             **{name: getattr(sweep.settings.config.interactions, name) for name in ("below", "above")},
             "drawn": {"blade": sweep.drawn["blade"]},
@@ -140,10 +147,10 @@ FIGURES = (
         over_speed=False,
         files={"ranking": "<results>/ranking.csv"},
         label="ranking",
-        caption="Which blade? Length of the speeds above yield of every blade, scene by scene, by rank. Blades on one grey "
-        "ground (=) cannot be told apart. Dark: in more than half of the later revolutions; light: in more than a twentieth; "
-        "faint: in any. Lines: what the dark length is known to within; with members: the range that contains nine tenths of "
-        "them.",
+        caption="Which blade? Length of the dangerous speeds of every blade (dark), and of the unknown ones, at which the model "
+        "is left before yield is passed (hatched), scene by scene, by rank. Blades whose brackets overlap, on one grey ground "
+        "(=), cannot be told apart. Upright line: length above yield in most later revolutions. Lines: what the dark length is "
+        "known to within; with members: the range that contains nine tenths of them.",
         arguments=lambda sweep: {"scenes": sweep.drawn["scene"]},
     ),
 )

@@ -12,18 +12,21 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 from r37core.results.closing import interaction_title
 from r37core.results.events import Danger
 from r37core.results.interactions import sized
+from r37core.results.measures import ran
 from r37core.results.spectral_lines import frequency_named
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
 from . import style
 from .campbell_diagram import draw_engine_orders
+from .danger_rows import draw_danger_rows
 
 _WIDTH = 5.2
 """Width (inch) at which letters can still be read where a telephone shows the figure."""
@@ -35,13 +38,17 @@ _LARGEST, _STRIP = 26.0, 0.09
 _SMALLEST = 25.0
 """Smallest area (pt^2) of a circle, which can still be seen: that of what is not above yield."""
 
+_UNKNOWN, _DANGEROUS = Danger.UNKNOWN.text, Danger.DANGEROUS.text
 _MARKS = {
-    Danger.DANGEROUS.text: ("o", np.nan, 0.45, "dangerous: yield is passed"),
-    Danger.UNKNOWN.text: ("D", 36.0, 0.45, "unknown: the model is left first"),
+    _DANGEROUS: ("o", np.nan, 0.45, "dangerous: yield is passed"),
+    _UNKNOWN: ("D", 60.0, 0.0, "unknown: the model is left first"),
     Danger.BELOW.text: ("o", _SMALLEST, 0.0, "below yield"),
     "": (".", _SMALLEST, 0.0, "stress not known"),
 }
 """`danger` of results.interactions.sized -> marker, its area (pt^2; NaN: by the size), how dense it is, and its meaning."""
+
+_MOST_ROWS, _ROW_HEIGHT = 14, 0.14
+"""Blades of which each has a row in each scene, and its height (inch)."""
 
 _LETTERS: dict[Any, Any] = {f"{part}size": 9 for part in ("font.", "axes.label", "xtick.label", "ytick.label", "legend.font")}
 _HALO = [withStroke(linewidth=2.0, foreground="white")]
@@ -53,12 +60,15 @@ _OTHERS = "0.45"
 """Colour of blades that have none of their own."""
 
 
-def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.DataFrame) -> Figure:
-    """Draw a panel for each scene, at most six: those with the longest dangerous ranges.
+def draw_interactions(
+    campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.DataFrame, stress: xr.Dataset | None = None
+) -> Figure:
+    """Draw a panel for each scene, at most six: those with the longest dangerous ranges; below it danger_rows of the blades.
 
     `interactions`: summary.csv; `rms`: which speeds were run. A circle stands at the peak speed and at the frequency of its
     engine order there, without one on a strip below. Its area is the length of the dangerous speeds or, in a scene without
-    stress, the motion; other marks are unknown or below yield. Lines: dangerous and sustained speeds.
+    stress, the motion; other marks are unknown or below yield. Lines: dangerous and sustained speeds. Of more than _MOST_ROWS
+    blades the title has in place of rows how many runs are unknown.
     """
     rows = sized(interactions, rms)
     lengths = rows[rows["unit"] == "rad/s"].groupby("scene")["size"].max()
@@ -77,27 +87,31 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     for blade in sorted(blades, key=lambda blade: -largest.get(blade, -1.0)):
         owner.setdefault(looks[blade]["color"], blade)
     colours = {blade: look["color"] if owner[look["color"]] == blade else _OTHERS for blade, look in looks.items()}
-    ran = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
-    margin = max(0.03 * (ran[-1] - ran[0]), 0.01 * ran[-1])
+    speeds = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
+    margin = max(0.03 * (speeds[-1] - speeds[0]), 0.01 * speeds[-1])
+    whole = rms if stress is None else xr.merge([rms, stress], join="left", compat="override")
+    drawn = rms["blade"].values.tolist() if rms.sizes["blade"] <= _MOST_ROWS else []
     highest = np.nanmin([1.3 * float(campbell["frequency"].sel(mode="2B").max()), 1.15 * rows["frequency"].max()])
     strip = -_STRIP * highest if rows["frequency"].isna().any() else 0.0
     rows = rows.assign(frequency=rows["frequency"].fillna(strip).clip(upper=highest), higher=rows["frequency"] > highest)
     sized_by_motion = rows["unit"] == "mm"
-    rows["danger"] = rows["danger"].mask(sized_by_motion, Danger.DANGEROUS.text)
+    rows["danger"] = rows["danger"].mask(sized_by_motion, _DANGEROUS)
     rows["area"] = rows["danger"].map({above: area for above, (_, area, *_) in _MARKS.items()})
     rows["area"] = rows["area"].fillna(_LARGEST**2 * rows["size"] / rows["scale"]).fillna(0.0).clip(lower=_SMALLEST)
     with plt.rc_context(_LETTERS | {"axes.titlesize": 10}):
-        size = (_WIDTH, 0.9 + len(scenes) * (3.0 if len(scenes) < 3 else 2.4))
-        figure, grid = plt.subplots(len(scenes), 1, figsize=size, sharex=True, sharey=True, squeeze=False)
-        panels = dict(zip(scenes, grid.flat, strict=True))
+        heights = [3.0 if len(scenes) < 3 else 2.4, _ROW_HEIGHT * len(drawn) or 0.01]
+        shape = {"sharex": True, "squeeze": False, "height_ratios": heights * len(scenes)}
+        figure, grid = plt.subplots(2 * len(scenes), 1, figsize=(_WIDTH, 1.1 + len(scenes) * sum(heights)), **shape)
+        panels = dict(zip(scenes, grid[::2, 0], strict=True))
         # the circles of what is higher stay below the upper scale
         top = highest * (1.08 if rows["higher"].any() else 1.0)
-        grid[0, 0].set(xlim=(ran[0] - margin, ran[-1] + margin), ylim=(2.0 * strip, top))
+        grid[0, 0].set_xlim(speeds[0] - margin, speeds[-1] + margin)
         style.rpm_axis(grid[0, 0], most_ticks=6)
         grid[-1, 0].set_xlabel(style.SPEED_LABEL)
         for scene, axes in panels.items():
             higher = " (circles at the top edge: higher)" if rows["higher"][rows["scene"] == scene].any() else ""
-            axes.set(title=f"{style.scene_words(scene)}{higher}", ylabel="frequency (Hz)")
+            left = "" if drawn else _unknown_share(whole.sel(scene=scene))
+            axes.set(title=f"{style.scene_words(scene)}{higher}{left}", ylabel="frequency (Hz)", ylim=(2.0 * strip, top))
             axes.grid(visible=False)
             _draw_modes(axes, campbell, dict.fromkeys([*NAMED_MODES, *rows["mode"][rows["scene"] == scene].dropna()]))
             if strip:
@@ -105,18 +119,25 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
                 ticks = [tick for tick in axes.get_yticks() if 0.0 <= tick <= highest]
                 axes.set_yticks([strip, *ticks], ["no order", *(f"{tick:g}" for tick in ticks)])
             _draw_marks(axes, rows[rows["scene"] == scene], colours)
+        for scene, axes in zip(scenes, grid[1::2, 0], strict=True):
+            responses = {blade: ran(whole.sel(scene=scene, blade=blade)) for blade in drawn}
+            draw_danger_rows(axes, responses, [looks[blade]["color"] for blade in drawn])
+            axes.tick_params(axis="y", labelsize=6)
+            axes.set_visible(bool(drawn))
         close: dict[str, Any] = {"handletextpad": 0.1, "columnspacing": 1.0}
-        style.legend_below(figure, grid.flat, 5, **close)
+        style.legend_below(figure, grid[::2, 0], 5, **close)
         if not sized_by_motion.all():
             known = {above: mark for above, mark in _MARKS.items() if above or "" in set(rows["danger"])}
             keys = [
-                Line2D([], [], marker=mark, markerfacecolor=to_rgba("0.2", share), linestyle="", markeredgecolor="0.2")
-                for mark, _, share, _ in known.values()
+                Patch(**style.UNKNOWN)
+                if above == _UNKNOWN
+                else Line2D([], [], marker=mark, markerfacecolor=to_rgba("0.2", share), linestyle="", markeredgecolor="0.2")
+                for above, (mark, _, share, _) in known.items()
             ]
             figure.legend(keys, [label for *_, label in known.values()], loc="outside upper center", ncols=4, **close)
         figure.draw_without_rendering()
         # above yield or with a motion, the longest first and then those with the most revolutions
-        dangerous = rows[rows["danger"].isin([Danger.DANGEROUS.text, Danger.UNKNOWN.text])]
+        dangerous = rows[rows["danger"].isin([_DANGEROUS, _UNKNOWN])]
         dangerous = dangerous.sort_values(["size", "share_of_revolutions_above_yield"], ascending=False)
         for scene, axes in panels.items():
             _label(axes, dangerous[dangerous["scene"] == scene], figure.dpi / 72.0, named=len(colours) > 1)
@@ -166,8 +187,19 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
         part = rows[(rows["danger"] == above) & (~diverged | (rows["size"] > 0.0))].sort_values("area", ascending=False)
         faces, edges = ([to_rgba(colours[blade], alpha) for blade in part["blade"]] for alpha in (share, 1.0))
         x, y = _places(part)
+        look = {"hatch": style.UNKNOWN["hatch"] * 2} if above == _UNKNOWN else {}
         axes.scatter(
-            x, y, part["area"], marker=marker, facecolors=faces, edgecolors=edges, linewidths=0.9, zorder=2.5, clip_on=False
+            x,
+            y,
+            part["area"],
+            None,
+            marker,
+            facecolors=faces,
+            edgecolors=edges,
+            linewidths=0.9,
+            zorder=2.5,
+            clip_on=False,
+            **look,
         )
     if diverged.any():
         axes.plot(*_places(rows[diverged]), "x", color="red", zorder=2.6, label="diverged", clip_on=False)
@@ -187,6 +219,12 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
         axes.legend(
             handles, labels, ncols=2, frameon=True, framealpha=0.9, edgecolor="none", columnspacing=1.0, borderpad=0.6, **place
         )
+
+
+def _unknown_share(runs: xr.Dataset) -> str:
+    """How many runs of all blades leave the model first; nothing where none does."""
+    left = np.count_nonzero(runs["exit_revolution"].notnull())
+    return f" ({left} of {np.count_nonzero(runs['status'] != RunStatus.NOT_RUN)} runs leave the model)" if left else ""
 
 
 def _sizes_of_key(circles: pd.DataFrame) -> list[float]:
@@ -238,6 +276,6 @@ def _text(row: dict[str, Any], *, named: bool) -> str:
     name = " ".join([row["blade"]] * named + [title] * bool(title))
     amount = f"{row['size']:.0f}" if row["size"] >= 10.0 else f"{row['size']:.2g}"
     amount = f"{'> ' * row['onward']}{amount} {row['unit']}"
-    if row["danger"] == Danger.UNKNOWN.text:
+    if row["danger"] == _UNKNOWN:
         amount = f"unknown from {row['largest_stress_over_yield']:.2g} x yield"
     return f"{name}, {amount}" if name else amount

@@ -1,4 +1,4 @@
-"""Response over speed: rms of the leading edge, and stress against yield, from its median to the largest."""
+"""Response over speed: rms of the leading edge, stress against yield, and which speeds are dangerous or unknown."""
 
 from typing import Any
 
@@ -7,16 +7,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.results.datasets import with_further_runs
+from r37core.results.measures import ran
 from r37core.results.other_motions import half_step, swept
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from . import style
+from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows
 
 _MARKERS = (
     ("motion_at_end", MotionAtEnd.CUT_FREE, "o", "cut free at the end"),
     ("motion_at_end", MotionAtEnd.GROWING, "^", "growing at the end"),
-    ("beyond_limits", 1.0, "s", "beyond the model's limits"),
 )
 """Variable and state of a run that is marked, its open marker, and what it is called."""
 
@@ -29,15 +30,19 @@ def draw_response(
     motions: xr.Dataset | None = None,
     further_runs: xr.Dataset | None = None,
 ) -> Figure:
-    """One blade: normal and tangential rms of the leading edge in every scene, and bands of the stress with the yield line.
+    """One blade: normal and tangential rms of the leading edge in every scene, bands of the stress with the yield line, rows.
+
+    A row of a scene shows which of its speeds are dangerous, unknown or sustained (danger_rows).
 
     `campbell`: where 1B crosses engine orders, None to leave that out; `motions`: more than that from rest, whose largest is
     drawn where it differs from that (results/other_motions.py), and these speeds shaded; `further_runs`: of a verdict.
     """
     rms = with_further_runs("rms", rms, further_runs)
     stress = None if stress is None else with_further_runs("stress", stress, further_runs)
-    figure, grid = style.panels(2 if stress is None else 3, 1, 6.4, sharex=True)
-    panels = grid[:, 0]
+    scenes = rms["scene"].values.tolist()
+    heights = [*[1.8] * (2 if stress is None else 3), ROW_HEIGHT * len(scenes)]
+    figure, grid = style.panels(len(heights), 1, 1.0 + sum(heights), sharex=True, height_ratios=heights)
+    *panels, rows = grid[:, 0]
     for axes, direction in zip(panels, ("normal", "tangential"), strict=False):
         _draw_scenes(axes, rms, direction)
         if motions is not None:
@@ -54,7 +59,7 @@ def draw_response(
     panels[0].set_title(f"blade {title}: leading edge over the last half of the run{crossings}")
     if stress is not None:
         for scene in stress["scene"].values:
-            runs = stress.sel(scene=scene).dropna("speed", subset=["max_von_mises_median"])
+            runs = stress.sel(scene=scene).dropna("speed", subset=["max_von_mises_ever"])
             style.stress_band(panels[2], runs["speed"], runs, style.scene_words(scene))
         if motions is not None and "max_von_mises_ever" in motions:
             _draw_largest(panels[2], motions, "max_von_mises_ever", 1e-9)
@@ -62,9 +67,12 @@ def draw_response(
         panels[2].set_ylabel(style.stress_label(stress))
     for axes in panels:
         axes.set_ylim(bottom=0.0)
-    panels[-1].set_xlabel(style.SPEED_LABEL)
+    whole = rms if stress is None else xr.merge([rms, stress], join="left", compat="override")
+    responses = {style.scene_words(scene): ran(whole.sel(scene=scene)) for scene in scenes}
+    draw_danger_rows(rows, responses, [f"C{number}" for number in range(len(scenes))])
+    rows.set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
-    style.legend_below(figure, panels, 4)
+    style.legend_below(figure, panels, 3, LEGEND)
     return figure
 
 
@@ -73,7 +81,7 @@ def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
         runs = rms.sel(scene=scene)
         response = runs[f"rms_{direction}"].sel(tip_point="leading_edge").dropna("speed")
         (line,) = axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=style.scene_words(scene))
-        # open markers where a run's motion has cut itself free, or still grows, or is beyond limits
+        # open markers where a run's motion has cut itself free, or still grows
         drawn = runs.sel(speed=response["speed"].values)
         look: dict[str, Any] = {"color": line.get_color(), "fillstyle": "none", "markersize": 4}
         for name, state, marker, label in _MARKERS:

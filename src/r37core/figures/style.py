@@ -113,10 +113,10 @@ def is_linear(data: xr.Dataset) -> bool:
 
 
 def stress_band(axes: Axes, places: Any, stress: xr.Dataset, label: str, **look: Any) -> None:
-    """Median (GPa) of the largest stress of each later revolution, over `places`, and a band from it up to their largest."""
-    median, largest = (1e-9 * stress[f"max_von_mises_{name}"] for name in ("median", "ever"))
-    (line,) = axes.plot(places, median, marker=".", markersize=3, label=label, **look)
-    axes.fill_between(places, median, largest, color=line.get_color(), alpha=0.12, linewidth=0.0)
+    """Largest stress (GPa) before a run leaves the model, over `places`, and a band from it up to that of all revolutions."""
+    inside, largest = (1e-9 * stress[f"max_von_mises_{name}"] for name in ("inside", "ever"))
+    (line,) = axes.plot(places, inside, marker=".", markersize=3, label=label, **look)
+    axes.fill_between(places, inside, largest, color=line.get_color(), alpha=0.12, linewidth=0.0)
     # also of a speed without neighbours
     axes.plot(places, largest, marker=".", markersize=2, **look | {"color": line.get_color(), "linewidth": 0.6})
 
@@ -124,7 +124,14 @@ def stress_band(axes: Axes, places: Any, stress: xr.Dataset, label: str, **look:
 def stress_label(stress: xr.Dataset) -> str:
     """Label of an axis of stress_band, with the region of the stress where all runs have the same."""
     regions = set(map(str, stress["stress_region"].values.flat)) - {""} if "stress_region" in stress else set()
-    return "\n".join(["von Mises (GPa)", "median to largest", *(fill(region, 30) for region in regions if len(regions) == 1)])
+    return "\n".join(
+        [
+            "von Mises (GPa)",
+            "inside the model",
+            "to largest of all",
+            *(fill(region, 30) for region in regions if len(regions) == 1),
+        ]
+    )
 
 
 def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False, linear: bool = False) -> None:
