@@ -39,6 +39,7 @@ def sweep():
     history = np.full((2, 2, 1, 4), np.nan)
     history[0, 0, 0] = 1e8 * np.arange(1, 5)
     stress = {
+        "status": (dims, status),
         **{
             f"max_von_mises_{name}": (dims, factor * stressed)
             for name, factor in (("ever", 1.0), ("high", 0.8), ("median", 0.5), ("inside", 0.4))

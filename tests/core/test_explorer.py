@@ -15,6 +15,11 @@ from r37core.explorer.contents import bin_starts, explorer_contents, joined, ord
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import load_settings
 from r37core.product.targets import links
+from r37core.results.danger import danger_ranges
+from r37core.results.datasets import response_of
+from r37core.results.events import Danger
+from r37core.results.exceedance import length_of
+from r37core.results.limits import Cause
 from r37core.time_integration.status import RunStatus
 
 datasets = pytest.fixture(scope="module")(sweep)
@@ -108,9 +113,12 @@ def choose(page, **state):
 
 
 def traces(page, plot):
-    return page.evaluate(
-        "name => document.getElementById(name).data.map(({ name, x, y, text }) => ({ name, x, y: Array.from(y), text }))", plot
+    """Curves and maps of a plot, without the bars of dangerous and unknown speeds."""
+    script = (
+        "name => document.getElementById(name).data.filter(({ type }) => type !== 'bar')"
+        ".map(({ name, x, y, text }) => ({ name, x, y: Array.from(y), text }))"
     )
+    return page.evaluate(script, plot)
 
 
 def curves(page):
@@ -183,7 +191,7 @@ def test_choices_change_what_is_drawn(page, datasets):
 
 
 def test_it_opens_at_the_worst_run(shown, datasets):
-    """To have diverged is worse than any number, then the largest stress of all scenes counts, or the motion without any."""
+    """To have diverged is worse than any number, then the largest stress inside the model counts, or the motion without any."""
     with shown(datasets) as other:
         now = "Ref, direct, 1200 rad/s, 11459 rpm, diverged: beyond all that has a number"
         assert other.text_content("#now").startswith(now)
@@ -191,7 +199,7 @@ def test_it_opens_at_the_worst_run(shown, datasets):
     rms["status"] = rms["status"].where(rms["status"] != RunStatus.DIVERGED, RunStatus.COMPLETED)
     rms["rms_normal"].loc[{"blade": "L<50>", "scene": "direct", "speed": 900.0}] = 1.0
     stress = datasets["stress"].copy(deep=True)
-    stress["max_von_mises_ever"].loc[{"blade": "L<50>", "scene": "abradable", "speed": 1000.25}] = 4.1e10
+    stress["max_von_mises_inside"].loc[{"blade": "L<50>", "scene": "abradable", "speed": 1000.25}] = 4.1e10
     for place, speed in (("", "1000.3 rad/s"), ("#speed=1200", "1200 rad/s")):
         with shown(datasets | {"rms": rms, "stress": stress}, place=place) as other:
             assert other.text_content("#now").startswith(f"L<50>, abradable, {speed}")
@@ -210,7 +218,7 @@ def test_it_fits_the_screen(shown, datasets, width):
             assert buttons["x"] + buttons["width"] <= width, name
             titles = {button.get_attribute("data-title") for button in other.locator(f"#{name} .modebar-btn").all()}
             assert titles == {"Download plot as a PNG", "Zoom", "Pan", "Reset axes"}
-        assert other.locator("main > section:visible").count() == 5
+        assert other.locator("main > section:visible").count() == 6
         other.select_option("#scene", "direct")
         assert other.locator("main > section:visible h2").all_text_contents()[-1] == "Spectrum"
         # what is there takes the room of what is not
@@ -287,15 +295,40 @@ def test_stress_above_yield_is_marked_as_outside_the_linear_model(shown, dataset
         "above yield: outside the linear model",
         datasets["stress"].sel(blade="Ref", scene="abradable", speed=1000.25),
     )
-    stress, share = 1e-6 * float(of_run["max_von_mises_ever"]), 100 * float(of_run["share_of_revolutions_above_yield"])
+    ever, inside = (1e-6 * float(of_run[f"max_von_mises_{name}"]) for name in ("ever", "inside"))
     changed = datasets | {"stress": datasets["stress"].assign(yield_stress=limits)}
     with shown(changed, place="#scene=abradable&speed=1000.25") as other:
-        assert other.text_content("#now").endswith(f"in {share:g}% of the later revolutions, up to {stress:.5g} MPa, {outside}")
+        assert other.text_content("#now").endswith(f"largest stress {ever:.5g} MPa, {inside:.5g} MPa inside the model")
         shapes = other.evaluate("document.getElementById('response').layout.shapes")
         across = [(one["name"], one["y0"]) for one in shapes if one["x1"] == 1]
         assert across == [(outside, 1), ("yield stress", 1)]
-        other.select_option("#scene", "direct")
-        assert "yield" not in other.text_content("#now")
+
+
+def test_header_table_and_bars_say_when_a_run_is_above_yield_and_when_it_leaves_the_model(shown, datasets):
+    """First revolutions of both, the limit that is left; lengths of each kind by blade; a bar for each range."""
+    stress, rms = (datasets[kind].copy(deep=True) for kind in ("stress", "rms"))
+    here = {"blade": "Ref", "scene": "abradable", "speed": 900.0}
+    stress["max_von_mises_inside"].loc[here] = 2.76e9
+    for name, value in (("first_yield_revolution", 2.0), ("revolutions_above_yield", 70.0)):
+        stress[name].loc[here] = value
+    rms["exit_revolution"].loc[here], rms["exit_cause"].loc[here] = 5.0, Cause.FORCE
+    stress["yield_danger"].loc[here] = Danger.DANGEROUS
+    with shown(datasets | {"rms": rms, "stress": stress}, place="#blade=Ref&scene=abradable&speed=900") as other:
+        now = other.text_content("#now")
+        assert "above yield first in revolution 2, in 70 of all" in now and "leaves the model in revolution 5, by force" in now
+        (dangerous, unknown) = danger_ranges(response_of(datasets | {"rms": rms, "stress": stress}, "Ref", "abradable"))
+        lengths = [f"{length_of(parts):.3g}" for parts in (dangerous, unknown)]
+        cells = other.locator("#danger tbody tr.chosen td").all_text_contents()
+        assert cells[:3] == ["Ref", *lengths] and cells[4:] == ["2760", "heat"]
+        bars = other.evaluate(
+            "document.getElementById('response').data.filter(({ type }) => type === 'bar')"
+            ".map(({ name, base, x, y }) => [name, ...[base, x, y].map((of) => Array.from(of))])"
+        )
+        found = {name: [row for row in zip(*rest, strict=True) if row[2] == "abradable"] for name, *rest in bars}
+        for name, parts in (("dangerous", dangerous), ("unknown", unknown)):
+            assert found[name] == [(pytest.approx(part.begin), pytest.approx(part.length), "abradable") for part in parts]
+        other.locator("#danger button", has_text="L<50>").click()
+        assert other.text_content("#now").startswith("L<50>, abradable")
 
 
 def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):

@@ -20,6 +20,7 @@ from PIL import Image
 from r37core.figures import campbell_diagram, comparison, interaction_map, maps, response_curves, style
 from r37core.product.targets import FIGURES
 from r37core.results.columns import INTERACTIONS, names
+from r37core.results.events import Danger
 from r37core.results.table_file import read_table
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
@@ -58,8 +59,8 @@ def datasets():
     left = np.where((values > 0.7e-3) | (np.arange(2) > 0)[:, None], 30.0, np.nan)
     both |= {"status": (dims, status), "exit_revolution": (dims, left), "exit_cause": (dims, (2 * (left > 0.0)).astype("i1"))}
     rms = xr.Dataset(both, coords | {"tip_point": ["leading_edge", "trailing_edge"]})
-    stresses = {f"max_von_mises_{name}": (dims, factor * 1e12 * values) for name, factor in (("inside", 1.0), ("ever", 2.0))}
-    danger = np.where(stresses["max_von_mises_inside"][1] > 0.8e9, Danger.DANGEROUS, np.where(left > 0.0, Danger.UNKNOWN, 0))
+    stresses = {f"max_von_mises_{name}": (dims, factor * 1e12 * values) for name, factor in (("inside", 1.6), ("ever", 2.0))}
+    danger = np.where(stresses["max_von_mises_inside"][1] > 1.38e9, Danger.DANGEROUS, np.where(left > 0.0, Danger.UNKNOWN, 0))
     stresses |= {"yield_danger": (dims, danger.astype("i1")), "share_of_revolutions_above_yield": (dims, 600.0 * values)}
     stresses |= {"yield_stress": (dims[:2], np.full((3, 2), 1.38e9)), "stress_region": (dims[:2], np.full((3, 2), "airfoil"))}
     stress = xr.Dataset(stresses, coords, {"contact": "11 patches: Ref, L50, S100"})
@@ -93,7 +94,7 @@ def compared(datasets, **changes):
 def interactions(*rows):
     """summary.csv of rows of 1B/4 that differ from one, at 1700 rad/s with 20 rad/s above yield, in what is given."""
     row = {"blade": "Ref", "scene": "abradable", "mode": "1B", "engine_order": 4, "peak_speed_rad_s": 1700.0}
-    row |= {"length_most_revolutions_rad_s": 20.0, "share_of_revolutions_above_yield": 0.9, "largest_stress_over_yield": 4.5}
+    row |= {"length_dangerous_rad_s": 20.0, "length_unknown_rad_s": 0.0, "largest_stress_over_yield": 4.5}
     row |= {"peak_motion_m": 0.01, "status": "completed"}
     columns = dict.fromkeys([*names(INTERACTIONS), *row])
     return pd.DataFrame([row | given for given in rows], columns=list(columns)).astype({"engine_order": "Int64"})
@@ -101,7 +102,12 @@ def interactions(*rows):
 
 def draw_interactions(datasets, *rows):
     table = interactions(*rows or ({}, {"blade": "L50", "scene": "direct"}))
-    return interaction_map.draw_interactions(datasets["campbell"], datasets["rms"], table)
+    return interaction_map.draw_interactions(datasets["campbell"], datasets["rms"], table, datasets["stress"])
+
+
+def scenes_of(figure):
+    """Panels of the scenes of a figure of the interactions, without the rows of the blades below each."""
+    return [axes for axes in figure.axes[::2] if axes.get_ylabel() == "frequency (Hz)"]
 
 
 def texts(of):
@@ -244,7 +250,7 @@ def test_a_user_s_matplotlibrc_changes_no_figure(tmp_path):
 def test_blades_of_several_materials_have_a_yield_line_each(datasets):
     """Dashed lines of the last panel at their stress (GPa), and the texts beside them."""
     for limits, heights, blades in (([1.38e9] * 3, [1.38], []), ([1.38e9, 0.9e9, 1.38e9], [0.9, 1.38], ["L50", "Ref, S100"])):
-        axes = compared(datasets, yield_stress=("blade", limits)).axes[-1]
+        axes = compared(datasets, yield_stress=("blade", limits)).axes[2]
         dashed = [line for line in axes.lines if line.get_linestyle() == "--" and line.get_color() == "0.3"]
         assert [float(line.get_ydata()[0]) for line in dashed] == pytest.approx(heights)
         assert texts(axes.texts) == blades
@@ -274,10 +280,10 @@ def test_stress_above_yield_is_tinted_and_outside_the_model_only_where_that_is_l
     assert not style.is_linear(xr.Dataset(attrs={"contact": "patches", "kinematics": "quadratic"}))
 
 
-def test_stress_is_a_band_from_the_median_to_the_largest_of_the_later_revolutions(datasets):
+def test_stress_is_a_band_from_the_largest_inside_the_model_to_that_of_all_revolutions(datasets):
     """From 0, like the motion; also of a speed without neighbours, with the region that decides."""
     of = {kind: datasets[kind].sel(blade="Ref", speed=[900.0, 1700.0]).copy(deep=True) for kind in ("rms", "stress")}
-    for name in ("median", "ever"):
+    for name in ("inside", "ever"):
         of["stress"][f"max_von_mises_{name}"].loc["abradable", 900.0] = np.nan
     for figure, stress in (
         (response_curves.draw_response("Ref", None, **of), of["stress"].sel(scene="abradable")),
@@ -285,21 +291,44 @@ def test_stress_is_a_band_from_the_median_to_the_largest_of_the_later_revolution
     ):
         assert [axes.get_ylim()[0] for axes in figure.axes[:3]] == [0.0] * 3
         axes = figure.axes[2]
-        median, largest = (line.get_ydata() for line in axes.lines[:2])
-        assert median.max() == pytest.approx(1e-9 * float(stress["max_von_mises_median"].max()))
-        np.testing.assert_allclose(largest, 2.0 * median)
-        assert axes.get_ylabel() == "von Mises (GPa)\nmedian to largest\nairfoil"
+        inside, largest = (line.get_ydata() for line in axes.lines[:2])
+        assert inside.max() == pytest.approx(1e-9 * float(stress["max_von_mises_inside"].max()))
+        np.testing.assert_allclose(largest, 2.0 / 1.6 * inside)
+        assert axes.get_ylabel() == "von Mises (GPa)\ninside the model\nto largest of all\nairfoil"
         assert any(isinstance(one, PolyCollection) for one in axes.collections)
 
 
+def test_rows_show_where_a_blade_is_dangerous_unknown_and_sustained_and_by_which_limit(datasets):
+    """Dark, hatched, with a line, and with the limits by which the model is left before yield; so also without stress."""
+    figure = response(datasets)
+    (rows,) = (axes for axes in figure.axes if ticks(axes) == ["abradable lining", "bare casing"])
+    places = {}
+    for one in rows.collections:
+        kind = "unknown" if one.get_hatch() else "ran" if one.get_alpha() else "dangerous"
+        for path in one.get_paths():
+            (low, bottom), (high, _) = path.vertices.min(axis=0), path.vertices.max(axis=0)
+            places.setdefault((round(bottom + 0.38), kind), []).append((low, high))
+    of_lining = datasets["stress"].sel(blade="Ref", scene="abradable")
+    above = SPEEDS[(of_lining["max_von_mises_inside"] > of_lining["yield_stress"]).values]
+    ((begin, end),) = places[0, "dangerous"]
+    assert begin < above.min() and above.max() < end and end - begin < 2 * 25.0 * len(above)
+    assert places[1, "unknown"] == places[1, "ran"] == [(750.0, 2000.0)] and (1, "dangerous") not in places
+    (line,) = rows.lines
+    assert line.get_ydata().tolist() == [0, 0] and 1675.0 < line.get_xdata()[0] < 1700.0 < line.get_xdata()[1] < 1725.0
+    assert texts(rows.texts) == ["by force"]
+    assert {"dangerous", "unknown", "sustained"} < {text.partition(":")[0] for text in texts(figure.legends[0].get_texts())}
+    alone = response_curves.draw_response("Ref", None, datasets["rms"].sel(blade="Ref"))
+    assert texts(alone.axes[2].texts) == ["by force", "by force"]
+
+
 def ranking(*rows):
-    """ranking.csv of blades, scenes, ranks and lengths above yield in most revolutions; in some 5, ever 9 rad/s more."""
-    table = pd.DataFrame(rows, columns=["blade", "scene", "rank", _MOST]).astype({"rank": "Int64"})
-    lengths = {"length_some_revolutions_rad_s": table[_MOST] + 5.0, "length_ever_rad_s": table[_MOST] + 9.0}
-    return table.assign(**lengths, contact="11 patches", length_most_revolutions_within_rad_s=12.0)
+    """ranking.csv of blades, scenes, ranks and lengths of the dangerous speeds; of unknown 5, of sustained 9 rad/s more."""
+    table = pd.DataFrame(rows, columns=["blade", "scene", "rank", _DANGEROUS]).astype({"rank": "Int64"})
+    lengths = {"length_unknown_rad_s": 5.0, "length_most_revolutions_rad_s": table[_DANGEROUS] + 9.0}
+    return table.assign(**lengths, contact="11 patches", length_dangerous_within_rad_s=12.0)
 
 
-_MOST = "length_most_revolutions_rad_s"
+_DANGEROUS = "length_dangerous_rad_s"
 
 
 def ticks(axes):
@@ -326,10 +355,10 @@ def test_blades_that_cannot_be_told_apart_are_one_group_of_the_ranking():
     ]
     assert groups == [[0.52], [-0.48]]
     bars = sorted(patch.get_width() for patch in first.patches if patch.get_y() not in groups[0])
-    assert bars == [5.0, 10.0, 14.0, 20.0, 22.0, 25.0, 27.0, 29.0, 31.0]
+    assert bars == [5.0, 5.0, 5.0, 5.0, 20.0, 22.0]
     assert "0 / 5 / 9" in texts(second.texts)
     # known to within more than the length: the error bar ends at 0
-    ends = second.collections[0].get_segments()
+    ends = second.collections[1].get_segments()
     assert [(begin[0], end[0]) for begin, end in ends] == [(0.0, 12.0), (0.0, 13.5), (0.0, 14.0)]
 
 
@@ -378,13 +407,13 @@ def test_interactions_are_circles_whose_area_is_their_length_above_yield(dataset
     figure = draw_interactions(
         datasets,
         {},
-        {"blade": "L50", "engine_order": 6, "peak_speed_rad_s": 1200.0, "length_most_revolutions_rad_s": 5.0},
-        {"engine_order": pd.NA, "peak_speed_rad_s": 1500.0, "length_most_revolutions_rad_s": 48.6},
-        {"engine_order": pd.NA, "peak_speed_rad_s": 1900.0, "status": "diverged", "length_most_revolutions_rad_s": 0.0},
-        {"peak_speed_rad_s": 1000.0, "status": "diverged", "length_most_revolutions_rad_s": 10.0},
-        {"blade": "S100", "engine_order": 30, "peak_speed_rad_s": 1900.0, "length_most_revolutions_rad_s": 10.0},
+        {"blade": "L50", "engine_order": 6, "peak_speed_rad_s": 1200.0, "length_dangerous_rad_s": 5.0},
+        {"engine_order": pd.NA, "peak_speed_rad_s": 1500.0, "length_dangerous_rad_s": 48.6},
+        {"engine_order": pd.NA, "peak_speed_rad_s": 1900.0, "status": "diverged", "length_dangerous_rad_s": 0.0},
+        {"peak_speed_rad_s": 1000.0, "status": "diverged", "length_dangerous_rad_s": 10.0},
+        {"blade": "S100", "engine_order": 30, "peak_speed_rad_s": 1900.0, "length_dangerous_rad_s": 10.0},
     )
-    axes = figure.axes[0]
+    axes = scenes_of(figure)[0]
     found = {float(speed): (frequency, area) for speed, frequency, area in circles(axes)}
     assert sorted(found) == [1000.0, 1200.0, 1500.0, 1700.0, 1900.0]
     assert found[1200.0][0] == pytest.approx(6 * 1200.0 / (2 * np.pi))
@@ -398,36 +427,40 @@ def test_interactions_are_circles_whose_area_is_their_length_above_yield(dataset
     assert "no order" in ticks(axes)
     assert texts(axes.get_legend().get_texts()) == ["20 rad/s", "5 rad/s"]
     assert {*BLADES, "diverged"} == set(texts(figure.legends[0].get_texts()))
-    assert "no interaction was found" in texts(figure.axes[1].texts)
+    assert "no interaction was found" in texts(scenes_of(figure)[1].texts)
 
 
 def test_no_interaction_that_was_above_yield_looks_like_one_that_never_was(datasets):
-    """A diamond for some revolutions, however few; an open ring only for none; and a line along the speeds above yield."""
-    none = {"length_most_revolutions_rad_s": 0.0}
-    ends = {"some_revolutions_from_rad_s": 1150.0, "some_revolutions_to_rad_s": 1260.0}
+    """A hatched diamond where the model is left first; an open ring only below yield; and a line along the speeds of a row."""
+    none = {"length_dangerous_rad_s": 0.0}
+    ends = {"from_rad_s": 1150.0, "to_rad_s": 1260.0}
     figure = draw_interactions(
         datasets,
         {},
-        none | ends | {"peak_speed_rad_s": 1200.0, "share_of_revolutions_above_yield": 0.01},
-        none | {"peak_speed_rad_s": 900.0, "share_of_revolutions_above_yield": 0.0},
-        none | {"peak_speed_rad_s": 1000.0, "share_of_revolutions_above_yield": np.nan},
+        none | ends | {"peak_speed_rad_s": 1200.0, "length_unknown_rad_s": 3.0},
+        none | {"peak_speed_rad_s": 900.0},
+        {"peak_speed_rad_s": 1000.0, "length_dangerous_rad_s": np.nan, "length_unknown_rad_s": np.nan},
     )
-    axes = figure.axes[0]
-    looks = {float(one.get_offsets()[0][0]): (len(one.get_paths()[0]), one.get_facecolors()[0][3]) for one in marks(axes)}
+    axes = scenes_of(figure)[0]
+    looks = {
+        float(one.get_offsets()[0][0]): (len(one.get_paths()[0]), one.get_facecolors()[0][3], bool(one.get_hatch()))
+        for one in marks(axes)
+    }
     diamond, ring = (len(MarkerStyle(shape).get_path()) for shape in "Do")
-    assert looks == {1700.0: (ring, 0.45), 1200.0: (diamond, 0.45), 900.0: (ring, 0.0), 1000.0: (ring, 0.0)}
+    below = (ring, 0.0, False)
+    assert looks == {1700.0: (ring, 0.45, False), 1200.0: (diamond, 0.0, True), 900.0: below, 1000.0: below}
     (line,) = (line for line in axes.lines if line.get_xdata().tolist() == [1150.0, 1260.0])
     np.testing.assert_allclose(line.get_ydata(), 4 * np.array([1150.0, 1260.0]) / (2 * np.pi))
-    assert "Ref 1B/4, up to 4.5 x yield" in texts(axes.texts)
+    assert "Ref 1B/4, unknown after 4.5 x yield" in texts(axes.texts)
     keys = figure.legends[1].get_texts()
-    assert texts(keys) == ["above yield in most revolutions", "in some", "in none", "stress not known"]
+    assert texts(keys) == ["dangerous", "unknown: model left first", "below yield", "stress not known", "sustained"]
 
 
 def test_labels_of_interactions_do_not_lie_on_each_other_and_say_where_the_speeds_end(datasets):
-    one = {kind: datasets[kind].sel(blade=["Ref"]) for kind in ("campbell", "rms")}
-    rows = [{"peak_speed_rad_s": 1600.0 + 20.0 * n, "length_most_revolutions_rad_s": 30.0 - n} for n in range(12)]
-    figure = draw_interactions(one, *rows, {"length_most_revolutions_rad_s": 98.4, "most_revolutions_to_rad_s": 2000.0})
-    labels = [text for text in figure.axes[0].texts if "rad/s" in text.get_text()]
+    one = {kind: datasets[kind].sel(blade=["Ref"]) for kind in ("campbell", "rms", "stress")}
+    rows = [{"peak_speed_rad_s": 1600.0 + 20.0 * n, "length_dangerous_rad_s": 30.0 - n} for n in range(12)]
+    figure = draw_interactions(one, *rows, {"length_dangerous_rad_s": 98.4, "dangerous_to_rad_s": 2000.0})
+    labels = [text for text in scenes_of(figure)[0].texts if "rad/s" in text.get_text()]
     assert len(labels) == 5
     assert labels[0].get_text() == "1B/4, > 98 rad/s"
     boxes = [text.get_window_extent() for text in labels]
@@ -437,39 +470,39 @@ def test_labels_of_interactions_do_not_lie_on_each_other_and_say_where_the_speed
 def test_a_combination_has_its_own_line_through_its_mark(datasets):
     """Dashed, the difference of the frequencies over speed; a panel without one has none."""
     figure = draw_interactions(datasets, {}, {"mode": "1T-1B", "engine_order": 6}, {"scene": "direct", "blade": "L50"})
-    dashed, none = ([line for line in axes.lines if line.get_linestyle() == "--"] for axes in figure.axes[:2])
+    dashed, none = ([line for line in axes.lines if line.get_linestyle() == "--"] for axes in scenes_of(figure)[:2])
     frequency = datasets["campbell"]["frequency"]
     difference = frequency.sel(mode="1T") - frequency.sel(mode="1B")
     np.testing.assert_allclose([line.get_ydata() for line in dashed], [difference.min("blade"), difference.max("blade")])
-    assert not none and {"1T-1B"} < set(texts(figure.axes[0].texts))
+    assert not none and {"1T-1B"} < set(texts(scenes_of(figure)[0].texts))
 
 
 def test_interactions_without_stress_are_as_large_as_their_motion(datasets):
-    unknown = {"length_most_revolutions_rad_s": np.nan, "share_of_revolutions_above_yield": np.nan}
+    unknown = {"length_dangerous_rad_s": np.nan}
     figure = draw_interactions(datasets, unknown, unknown | {"peak_motion_m": 0.0025, "peak_speed_rad_s": 1200.0})
-    (_, _, area), (_, _, smaller) = circles(figure.axes[0])
+    (_, _, area), (_, _, smaller) = circles(scenes_of(figure)[0])
     assert smaller == pytest.approx(0.25 * area)
-    assert "Ref 1B/4, 10 mm" in texts(figure.axes[0].texts)
+    assert "Ref 1B/4, 10 mm" in texts(scenes_of(figure)[0].texts)
 
 
 def test_a_run_without_interactions_says_so_and_of_many_scenes_the_longest_are_drawn(datasets, tmp_path):
     interactions().to_csv(tmp_path / "summary.csv", index=False)
     figure = interaction_map.draw_interactions(datasets["campbell"], datasets["rms"], read_table(tmp_path / "summary.csv"))
-    assert all("no interaction was found" in texts(axes.texts) for axes in figure.axes[:2])
+    assert all("no interaction was found" in texts(axes.texts) for axes in scenes_of(figure)[:2])
     scenes = [f"scene{number}" for number in range(8)]
     many = datasets | {"rms": datasets["rms"].isel(scene=[0] * 8).assign_coords(scene=scenes)}
-    rows = [{"scene": scene, "length_most_revolutions_rad_s": 9.0 - n} for n, scene in enumerate(scenes)]
+    rows = [{"scene": scene, "length_dangerous_rad_s": 9.0 - n} for n, scene in enumerate(scenes)]
     figure = draw_interactions(many, *rows)
-    assert [axes.get_title() for axes in figure.axes] == scenes[:6]
+    assert [axes.get_title() for axes in scenes_of(figure)] == scenes[:6]
 
 
 def test_scenes_share_a_scale_and_sizes_that_are_not_drawn_to_it_have_no_key(datasets):
     for length, key in ((10.0, ["10 rad/s"]), (2.0, ["2 rad/s"]), (0.5, None)):
-        figure = draw_interactions(datasets, {}, {"scene": "direct", "length_most_revolutions_rad_s": length})
-        first, second = (circles(axes)[0][2] for axes in figure.axes[:2])
+        figure = draw_interactions(datasets, {}, {"scene": "direct", "length_dangerous_rad_s": length})
+        first, second = (circles(axes)[0][2] for axes in scenes_of(figure)[:2])
         # no circle is too small to be seen
         assert second == pytest.approx(max(length / 20.0 * first, 25.0))
-        legend = figure.axes[1].get_legend()
+        legend = scenes_of(figure)[1].get_legend()
         assert (legend and texts(legend.get_texts())[:1]) == key
 
 

@@ -35,7 +35,7 @@ def test_rotors(tmp_path):
         assert rotors.closing(tmp_path) == f"2 rotors{said}; the largest stress 2.31 GPa, Ref in lined at 1640 rad/s"
 
 
-TIED = "2 designs; lined: 2 of 2 cannot be told apart by their speeds above yield in most revolutions"
+TIED = "2 designs; lined: 2 of 2 cannot be told apart by their dangerous and unknown speeds"
 GOODMAN = {"largest_goodman_share": [0.4, 0.55, np.nan]}
 OVER_YIELD = {"largest_stress_over_yield": [np.nan, 3.0, np.nan]}
 
@@ -43,7 +43,14 @@ OVER_YIELD = {"largest_stress_over_yield": [np.nan, 3.0, np.nan]}
 @pytest.mark.parametrize(
     ("within", "diverged", "more", "said"),
     [
-        (20.0, 0, GOODMAN, "2 designs; lined: B is above yield in most revolutions at the fewest speeds (13 rad/s)"),
+        (20.0, 0, GOODMAN, "2 designs; lined: B is dangerous at the fewest speeds (13 rad/s)"),
+        # brackets overlap
+        (
+            20.0,
+            0,
+            GOODMAN | {"length_unknown_rad_s": [0.0, 9.0, 0.0]},
+            f"{TIED}; of these A has the least share of the Goodman line (0.4)",
+        ),
         (25.0, 0, GOODMAN | OVER_YIELD, f"{TIED}; of these A has the least share of the Goodman line (0.4)"),
         # one that diverged has no largest share
         (25.0, 1, GOODMAN, f"{TIED}; of these B has the least share of the Goodman line (0.55)"),
@@ -53,9 +60,9 @@ OVER_YIELD = {"largest_stress_over_yield": [np.nan, 3.0, np.nan]}
 )
 def test_designs(tmp_path, within, diverged, more, said):
     """Those that cannot be told apart are counted, and the number that the choice among them is made by is told."""
-    lengths = {"length_most_revolutions_rad_s": [40.0, 13.2, np.nan], "diverged_runs": [diverged, 0, 0]}
-    lengths["length_most_revolutions_within_rad_s"] = [within, 10.0, np.nan]
-    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
+    lengths = {"length_dangerous_rad_s": [40.0, 13.2, np.nan], "length_unknown_rad_s": 0.0, "diverged_runs": [diverged, 0, 0]}
+    lengths["length_dangerous_within_rad_s"] = [within, 10.0, np.nan]
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths | more)
     assert designs.closing(tmp_path) == said
 
 

@@ -25,7 +25,7 @@ from r37core.results.columns import names
 from r37core.time_integration.status import RunStatus
 from r37studies.designs.compared import Compared
 from r37studies.designs.figures import draw_designs
-from r37studies.designs.maps import contents, draw_design_map, some_above_yield
+from r37studies.designs.maps import contents, draw_design_map
 from r37studies.designs.plan import EXTENSION, Families
 from r37studies.designs.table import MEASURES, compared_in, design_table
 from r37studies.run_ups.plan import RunUps
@@ -66,7 +66,7 @@ def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades
     assert [names["blade"] for names in targets(Sweep(settings))["<results>/figures/response_{blade}.png"]] == drawn
     (overview,) = (figure for figure in FIGURES if figure.rule == "comparison_figure")
     parameters = drawing(SimpleNamespace(step=lambda *_: {}), None, overview, Sweep(settings))
-    assert parameters["caption"]({"scene": "direct"}).endswith("diverged. 7 of 102 blades are drawn.")
+    assert parameters["caption"]({"scene": "direct"}).endswith("(light). 7 of 102 blades are drawn.")
 
 
 def test_a_grid_has_every_value_with_every_other(with_blades):
@@ -127,13 +127,16 @@ def compared():
     status, motion = np.zeros((2, 2, 3)), ((*over, "tip_point"), np.full((2, 2, 3, 2), 1e-3))
     status[0, :, 2] = RunStatus.NOT_RUN
     rms = xr.Dataset(
-        {"rms_normal": motion, "rms_tangential": motion, "status": (over, status)},
+        {
+            **{"rms_normal": motion, "rms_tangential": motion, "status": (over, status)},
+            **{"exit_revolution": (over, np.full((2, 2, 3), np.nan)), "exit_cause": (over, np.zeros((2, 2, 3), "i1"))},
+        },
         where | {"tip_point": ["leading_edge", "trailing_edge"]},
     )
     largest = (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]])
     stress = xr.Dataset(
         {
-            **dict.fromkeys(("max_von_mises_high", "max_von_mises_median", "max_von_mises_ever"), largest),
+            **{f"max_von_mises_{name}": largest for name in ("high", "median", "ever", "inside")},
             "share_of_revolutions_above_yield": (over, [[[0.0, 1.0, np.nan]], [[0.0, 0.0, 0.0]]]),
             "yield_stress": (("blade", "scene"), [[2e9], [2e9]]),
             "status": (over, status[:, :1]),
@@ -157,13 +160,13 @@ def test_designs_are_compared(compared):
     one = rows.loc["F_1", "lined"]
     assert (one["mass_kg"], one["frequency_1b_hz"], one["frequency_1t_hz"]) == (0.2, 800.0, 2500.0)
     assert one["clearance_loss_1b_m"] == 3e-4
-    keys = ["length_most_revolutions_rad_s", "first_most_revolutions_rad_s", "largest_median_stress_pa"]
+    keys = ["length_dangerous_rad_s", "first_dangerous_rad_s", "largest_median_stress_pa"]
     assert one[keys].tolist() == [5.0, 905.0, 3e9]
     # of the two peaks of 1B the one with the larger motion
     assert one["shift_1b_rad_s"] == 50.0
     other = rows.loc["F_2", "lined"]
-    assert other["length_most_revolutions_rad_s"] == other["length_some_revolutions_rad_s"] == 0.0
-    assert np.isnan(other["first_most_revolutions_rad_s"])
+    assert other["length_dangerous_rad_s"] == other["length_most_revolutions_rad_s"] == 0.0
+    assert np.isnan(other["first_dangerous_rad_s"])
     assert np.isnan(other["shift_1b_rad_s"])
     assert np.isnan(rows.loc["F_1", "bare"]["largest_median_stress_pa"])
 
@@ -336,7 +339,7 @@ def table_of(lengths):
     places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
     rows = [("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)]
     return pd.DataFrame(rows, columns=["blade", "scene", "family", *KEYS]).assign(
-        length_most_revolutions_rad_s=lengths, share_of_revolutions_above_yield=np.divide(lengths, 100.0)
+        length_dangerous_rad_s=lengths, length_unknown_rad_s=0.0, length_dangerous_within_rad_s=4.0
     )
 
 
@@ -378,13 +381,17 @@ def test_a_map_without_a_speed_above_yield_shows_how_near_fatigue_is():
     assert (figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()) == tuple(label for label, _ in shown["axes"])
 
 
-def test_a_map_marks_designs_that_are_above_yield_but_not_in_most_revolutions():
+def test_a_map_hatches_designs_with_unknown_speeds_and_has_both_ends_of_their_brackets():
     """In operation where its lengths are; in the explorer, too."""
-    table = table_of([40.0, 0.0, 0.0, 0.0]).assign(share_of_revolutions_above_yield=[0.9, 0.4, 0.0, 0.0])
-    inside = {"length_most_revolutions_operating_rad_s": 0.0, "exceedance_integral_operating_rad_s": [0.0, 0.0, 0.0, 2.0]}
-    for rows, place in ((table, ([0], [1.3])), (table.assign(**inside), ([1], [1.3]))):
-        assert marks_of(map_of(rows, None).axes[0], "above yield in some revolutions") == place
-    assert some_above_yield(table).tolist() == [0.0, 1.0, 0.0, 0.0]
+    table = table_of([40.0, 0.0, 0.0, 0.0]).assign(length_unknown_rad_s=[0.0, 25.0, 0.0, 0.0])
+    inside = {"length_dangerous_operating_rad_s": 2.0, "length_unknown_operating_rad_s": [0.0, 0.0, 0.0, 6.0]}
+    for rows, texts, corner in (
+        (table, ["40", "0", "0 to 25", "0"], (-0.5, 0.5)),
+        (table.assign(**inside), ["2", "2", "2", "2 to 8"], (0.5, 0.5)),
+    ):
+        axes = map_of(rows, None).axes[0]
+        assert [text.get_text() for text in axes.texts] == texts
+        assert [patch.get_xy() for patch in axes.patches if patch.get_hatch()] == [corner]
 
 
 @pytest.mark.slow
@@ -403,7 +410,7 @@ def test_one_more_value_runs_its_own_simulations(root, tmp_path):
 def test_each_family_has_a_map_in_the_explorer():
     """Two families of the same keys, and one of a single key."""
     one = table_of([40.0, 30.0, 20.0, 0.0])
-    other = one.assign(family="Other", scene=[f"Other_{number}" for number in range(4)], length_most_revolutions_rad_s=7.0)
+    other = one.assign(family="Other", scene=[f"Other_{number}" for number in range(4)], length_dangerous_rad_s=7.0)
     single = one.drop(columns=KEYS[1]).assign(family="Single")
     shown = contents(pd.concat([one, other, single]))
     assert [(family["family"], family["other"]) for family in shown] == [(name, "blade") for name in ("Room", "Other")]

@@ -29,7 +29,7 @@ def test_the_map_of_designs_has_the_line_of_a_requirement(page, datasets, tmp_pa
     places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
     designs = pd.DataFrame([("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)])
     table = designs.set_axis(["blade", "scene", "family", *keys], axis=1).assign(
-        length_most_revolutions_rad_s=[40.0, 30, 20, 0], share_of_revolutions_above_yield=[0.9, 0.8, 0.7, 0.1]
+        length_dangerous_rad_s=[40.0, 30, 20, 0], length_unknown_rad_s=[0.0, 0, 0, 15]
     )
     verdicts = [("Ref", f"Room_{number}", verdict) for number, verdict in enumerate(("fails", "fails", "fails", "meets"))]
     contents = explorer_contents(datasets) | {"panels": {"designs": design_panel(table)} | judged(*verdicts)}
@@ -38,7 +38,7 @@ def test_the_map_of_designs_has_the_line_of_a_requirement(page, datasets, tmp_pa
         map_ = "document.getElementById('designs')"
         sides = f"{map_}.layout.shapes.map(one => [one.x0, one.y0, one.x1, one.y1])"
         assert sorted(other.evaluate(sides)) == [[0.5, 0.5, 0.5, 1.5], [0.5, 0.5, 1.5, 0.5]]
-        assert other.evaluate(f"{map_}.data[0].text") == [["40", "20"], ["30", "0 \u25c7 \u2713"]]
+        assert other.evaluate(f"{map_}.data[0].text") == [["40", "20"], ["30", "0 to 15 \u2713"]]
         assert "limit of above yield" in other.text_content("#designs .legend")
         other.locator("h1").click()
         other.keyboard.press("ArrowRight")

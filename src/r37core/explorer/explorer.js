@@ -185,7 +185,7 @@
     fitted.observe(place);
     if (clicks && !place.dataset.listens) {
       place.dataset.listens = "yes";
-      place.on("plotly_click", ({ points: [{ x, data: { type } }] }) => { if (type !== "bar") set({ speed: x / factor() }); });
+      place.on("plotly_click", ({ points: [{ x, data: of }] }) => { if (of?.type !== "bar") set({ speed: x / factor() }); });
     }
   }
 

@@ -25,10 +25,13 @@ from . import style
 _LINE: dict[str, Any] = {"color": "white", "linewidth": 1.2, "path_effects": [withStroke(linewidth=3.0, foreground="black")]}
 """Look of a line that is seen on every colour."""
 
+LINE = Line2D([], [], **_LINE)
+"""Handle of sustained speeds in a legend."""
+
 LEGEND = {
     "dangerous: above yield, inside the model": Patch(facecolor="0.25"),
     "unknown: the model is left first": Patch(**style.UNKNOWN),
-    "sustained: above yield in most later revolutions": Line2D([], [], **_LINE),
+    "sustained: above yield in most later revolutions": LINE,
 }
 """Label -> handle of a row's looks, whatever its colour."""
 

@@ -26,7 +26,7 @@ from r37core.time_integration.status import RunStatus
 
 from . import style
 from .campbell_diagram import draw_engine_orders
-from .danger_rows import draw_danger_rows
+from .danger_rows import LINE, draw_danger_rows
 
 _WIDTH = 5.2
 """Width (inch) at which letters can still be read where a telephone shows the figure."""
@@ -40,8 +40,8 @@ _SMALLEST = 25.0
 
 _UNKNOWN, _DANGEROUS = Danger.UNKNOWN.text, Danger.DANGEROUS.text
 _MARKS = {
-    _DANGEROUS: ("o", np.nan, 0.45, "dangerous: yield is passed"),
-    _UNKNOWN: ("D", 60.0, 0.0, "unknown: the model is left first"),
+    _DANGEROUS: ("o", np.nan, 0.45, "dangerous"),
+    _UNKNOWN: ("D", 60.0, 0.0, "unknown: model left first"),
     Danger.BELOW.text: ("o", _SMALLEST, 0.0, "below yield"),
     "": (".", _SMALLEST, 0.0, "stress not known"),
 }
@@ -134,7 +134,10 @@ def draw_interactions(
                 else Line2D([], [], marker=mark, markerfacecolor=to_rgba("0.2", share), linestyle="", markeredgecolor="0.2")
                 for above, (mark, _, share, _) in known.items()
             ]
-            figure.legend(keys, [label for *_, label in known.values()], loc="outside upper center", ncols=4, **close)
+            labels = [label for *_, label in known.values()]
+            if drawn:
+                keys, labels = [*keys, LINE], [*labels, "sustained"]
+            figure.legend(keys, labels, loc="outside upper center", ncols=4, **close)
         figure.draw_without_rendering()
         # above yield or with a motion, the longest first and then those with the most revolutions
         dangerous = rows[rows["danger"].isin([_DANGEROUS, _UNKNOWN])]
@@ -270,12 +273,12 @@ def _label(axes: Axes, rows: pd.DataFrame, point: float, *, named: bool) -> None
 
 
 def _text(row: dict[str, Any], *, named: bool) -> str:
-    """Label of a mark: Ref 1B/4, 98 rad/s; of an unknown one: Ref 1B/5, unknown from 0.8 x yield."""
+    """Label of a mark: Ref 1B/4, 98 rad/s; of an unknown one: Ref 1B/5, unknown after 0.8 x yield."""
     order = row["engine_order"]
     title = interaction_title(row["mode"], order).removeprefix("engine ") if pd.notna(order) else ""
     name = " ".join([row["blade"]] * named + [title] * bool(title))
     amount = f"{row['size']:.0f}" if row["size"] >= 10.0 else f"{row['size']:.2g}"
     amount = f"{'> ' * row['onward']}{amount} {row['unit']}"
     if row["danger"] == _UNKNOWN:
-        amount = f"unknown from {row['largest_stress_over_yield']:.2g} x yield"
+        amount = f"unknown after {row['largest_stress_over_yield']:.2g} x yield"
     return f"{name}, {amount}" if name else amount

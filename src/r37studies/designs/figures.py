@@ -31,7 +31,7 @@ _TITLES = {
     "shift_1b_rad_s": "shift of 1B",
     "length_dangerous_rad_s": "dangerous speeds",
     "length_unknown_rad_s": "unknown speeds",
-    "length_most_revolutions_rad_s": "above yield in most revolutions",
+    "length_most_revolutions_rad_s": "sustained speeds",
     "largest_median_stress_pa": "median stress",
     "largest_stress_pa": "largest stress",
     "largest_goodman_share": "Goodman share",

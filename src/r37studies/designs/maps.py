@@ -9,22 +9,22 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Rectangle
 
 from r37core.base.plain import from_plain
 from r37core.explorer.contents import packed
 from r37core.figures import style
 
 from .compared import Compared, axis_of_key
-from .table import compared_in, length_column
+from .table import compared_in, length_column, unknown_length
 
 
 def draw_design_map(
     title: str, table: pd.DataFrame, compared: Mapping[str, Any], verdict: pd.DataFrame | None = None
 ) -> Figure:
-    """Length above yield in most revolutions over two keys, a panel for each of what does not vary.
+    """Length of the dangerous speeds over two keys, a panel for each of what does not vary; hatched where some are unknown.
 
-    Where no design is above yield, the largest share of the Goodman line in all that was tried is drawn instead. Diamonds
-    mark designs that are above yield, but not in most revolutions.
+    Where no design is dangerous, the largest share of the Goodman line in all that was tried is drawn instead.
     `compared`: a Compared, as plain values; `verdict`: verdict.csv, whose requirements are lines round the designs
     that do not fail them, and marks on those that meet all.
     """
@@ -38,7 +38,8 @@ def draw_design_map(
     figure, grid = plt.subplots(down, across, figsize=size, squeeze=False, sharex=True, sharey=True)
     highest = max(float(rows[column].max()), 1.0)
     for axes, (name, part) in zip(grid.flat, panels, strict=False):
-        cells = _draw_cells(axes, _grid(part, keys, column, "max"), highest, digits)
+        unknown = _grid(part.assign(unknown=unknown_length(part)), keys, "unknown", "max")
+        cells = _draw_cells(axes, _grid(part, keys, column, "max"), unknown, highest, digits)
         axes.set_title(name)
         for axis, key in zip((axes.xaxis, axes.yaxis), keys, strict=True):
             words, factor = axis_of_key(key)
@@ -47,25 +48,19 @@ def draw_design_map(
             axis.set_label_text(words)
         axes.grid(visible=False)
         axes.label_outer()
-        up, across_some = np.nonzero(_grid(part.assign(some=some_above_yield(part)), keys, "some", "max") == 1.0)
-        if len(up):
-            look: dict[str, Any] = {"color": "white", "markeredgecolor": "black", "markersize": 5}
-            axes.plot(across_some, up + 0.3, "D", label="above yield in some revolutions", **look)
         if verdict is not None:
             _draw_verdict(axes, part, keys, verdict)
     for axes in list(grid.flat)[len(panels) :]:
         axes.set_axis_off()
     figure.colorbar(cells, ax=grid, label=label)
-    style.legend_below(figure, grid.flat, 2)
+    hatched = Patch(**style.UNKNOWN)
+    style.legend_below(figure, grid.flat, 2, {UNKNOWN: hatched} if unknown_length(rows).any() else None)
     figure.suptitle(f"family {title.replace('__', ' x ')}")
     return figure
 
 
-def some_above_yield(rows: pd.DataFrame) -> pd.Series:
-    """1.0 for designs whose length above yield in most revolutions is 0, but not in all their revolutions; else 0.0."""
-    length = length_column(rows)
-    any_revolution = "exceedance_integral_operating_rad_s" if "operating" in length else "share_of_revolutions_above_yield"
-    return ((rows[length] == 0.0) & (rows[any_revolution] > 0.0)).astype(float)
+UNKNOWN = "unknown at some speeds: the model is left first"
+"""Label of designs with unknown speeds."""
 
 
 def measured(rows: pd.DataFrame, verdict: pd.DataFrame | None) -> tuple[pd.DataFrame, str, str, int]:
@@ -76,23 +71,23 @@ def measured(rows: pd.DataFrame, verdict: pd.DataFrame | None) -> tuple[pd.DataF
         if len(tried):
             label = "largest share of the Goodman line"
             return rows.merge(tried, on=["blade", "scene"]), "value_highest", label, 2
-    return rows, column, f"above yield in most revolutions{' in operation' if 'operating' in column else ''} (rad/s)", 0
+    return rows, column, f"dangerous speeds{' in operation' if 'operating' in column else ''} (rad/s)", 0
 
 
 def contents(designs: pd.DataFrame, verdict: pd.DataFrame | None = None) -> list[dict[str, object]]:
     """A map of each family of two keys: its `family`, `axes`, `other` (blade or scene, of which each has a map), and cells.
 
     `axes`: label and factor of each key; `cells`: blade, scene and values of the keys; `values`, `label` and `digits`: those
-    of the figure (measured), `some`: some_above_yield, by cell.
+    of the figure (measured), `unknown`: unknown_length, by cell.
     """
     maps: list[dict[str, object]] = []
     for name, compared in compared_in(designs).items():
         if len(compared.keys) == 2:
             rows, column, label, digits = measured(designs[designs["family"] == name], verdict)
             cells = rows[["blade", "scene", *compared.keys]].to_numpy().tolist()
-            values, some = packed(rows[column].to_numpy(float)), packed(some_above_yield(rows).to_numpy())
+            values, unknown = packed(rows[column].to_numpy(float)), packed(unknown_length(rows).to_numpy(float))
             about = {"family": name, "axes": [axis_of_key(key) for key in compared.keys], "other": compared.other}
-            maps.append(about | {"cells": cells, "values": values, "some": some, "label": label, "digits": digits})
+            maps.append(about | {"cells": cells, "values": values, "unknown": unknown, "label": label, "digits": digits})
     return maps
 
 
@@ -101,14 +96,18 @@ def _grid(rows: pd.DataFrame, keys: Sequence[str], column: str, together: str) -
     return rows.pivot_table(index=keys[1], columns=keys[0], values=column, aggfunc=together, dropna=False).to_numpy(float)
 
 
-def _draw_cells(axes: Axes, values: np.ndarray, highest: float, digits: int) -> QuadMesh:
-    """Cells of one unit each with their values."""
+def _draw_cells(axes: Axes, values: np.ndarray, unknown: np.ndarray, highest: float, digits: int) -> QuadMesh:
+    """Cells of one unit each with their values; of a length with those that are `unknown` both ends of its bracket."""
     corners = (np.arange(count + 1) - 0.5 for count in values.shape[::-1])
     cells = axes.pcolormesh(*corners, values, cmap="cividis", vmin=0.0, vmax=highest)
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):
             colour = "white" if value < 0.5 * highest else "black"
-            axes.text(column, row, f"{value:.{digits}f}", color=colour, fontsize=8, ha="center", va="center")
+            text, more = f"{value:.{digits}f}", unknown[row, column]
+            if more > 0.0:
+                axes.add_patch(Rectangle((column - 0.5, row - 0.5), 1.0, 1.0, **style.UNKNOWN))
+                text += "" if digits else f" to {value + more:.0f}"
+            axes.text(column, row, text, color=colour, fontsize=8, ha="center", va="center")
     return cells
 
 

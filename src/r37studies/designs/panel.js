@@ -1,5 +1,5 @@
 // designs over two numbers that vary, with the values of their figure, of the family that the chosen blade or scene is of; a click
-// chooses a design. Diamonds are above yield, but not in most revolutions. Lines go round the designs that do not fail a requirement, and those that meet all have a mark
+// chooses a design. A length with unknown speeds has both ends of its bracket. Lines go round the designs that do not fail a requirement, and those that meet all have a mark
 panels.designs = (families, page) => {
   const { state, digits, axis, layout, draw } = page;
   const distinct = (place, rows) => [...new Set(rows.map((row) => row[place]))].sort((one, other) => one - other);
@@ -7,8 +7,8 @@ panels.designs = (families, page) => {
   let cellAt = null;
 
   function chosen() {
-    const shown = families.map(({ cells, values, some, ...family }) => ({
-      ...family, rows: cells.map((cell, at) => [...cell, values.values[at], some.values[at]]),
+    const shown = families.map(({ cells, values, unknown, ...family }) => ({
+      ...family, rows: cells.map((cell, at) => [...cell, values.values[at], unknown.values[at]]),
     }));
     const own = shown.find(({ rows }) => rows.some(([blade, scene]) => blade === state.blade && scene === state.scene));
     return own ?? shown[0];
@@ -54,13 +54,14 @@ panels.designs = (families, page) => {
       return cell ? value(cell) : null;
     }));
     const [[acrossTitle, acrossFactor], [upTitle, upFactor]] = axes;
-    const marks = ([blade, scene, , , , some]) => `${some ? " \u25C7" : ""}${meets([blade, scene]) ? " \u2713" : ""}`;
+    const bracket = (value, unknown) => `${value.toFixed(decimals)}${unknown && !decimals ? ` to ${(value + unknown).toFixed(0)}` : ""}`;
+    const marks = ([blade, scene]) => (meets([blade, scene]) ? " \u2713" : "");
     const trace = {
       type: "heatmap", x: across.map((value) => digits(acrossFactor * value, 4)), y: up.map((value) => digits(upFactor * value, 4)),
       z: grid((cell) => cell[4]), zmin: 0, colorscale: page.MAGMA, zsmooth: false, hoverinfo: "text", texttemplate: "%{text}",
-      text: grid((cell) => (Number.isFinite(cell[4]) ? `${cell[4].toFixed(decimals)}${marks(cell)}` : "")),
-      hovertext: grid(([blade, scene, , , value, some]) => `${blade} in ${scene}<br>${label}: ${digits(value, 3)}`
-        + `${some ? "<br>above yield in some revolutions" : ""}${meets([blade, scene]) ? "<br>meets all requirements" : ""}`),
+      text: grid((cell) => (Number.isFinite(cell[4]) ? `${bracket(cell[4], cell[5])}${marks(cell)}` : "")),
+      hovertext: grid(([blade, scene, , , value, unknown]) => `${blade} in ${scene}<br>${label}: ${digits(value, 3)}`
+        + `${unknown ? `<br>unknown at ${digits(unknown, 3)} rad/s more: the model is left first` : ""}${meets([blade, scene]) ? "<br>meets all requirements" : ""}`),
       colorbar: { title: { text: `${family}: ${label}`, side: "right" }, thickness: 12 },
     };
     const plan = layout(axis(acrossTitle, { type: "category" }), axis(upTitle, { type: "category" }), {
@@ -69,7 +70,7 @@ panels.designs = (families, page) => {
     const mark = (name) => ({ x: [null], y: [null], mode: "markers", marker: { color: "rgba(0,0,0,0)" }, name });
     draw("designs", [
       trace, ...(page.requirements.length ? [mark("\u2713 meets all requirements")] : []),
-      ...(rows.some((cell) => cell[5]) ? [mark("\u25C7 above yield in some revolutions")] : []),
+      ...(rows.some((cell) => cell[5]) ? [mark("... to ...: the model is left first at some speeds")] : []),
     ], plan, false);
     const place = document.getElementById("designs");
     if (place.dataset.chooses) return undefined;

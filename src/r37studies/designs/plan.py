@@ -120,9 +120,9 @@ EXTENSION = Extension(
             draw="r37studies.designs.maps.draw_design_map",
             files={"table": TABLE},
             label="map of {family}",
-            caption="Family {family} over two numbers that vary. Colour: length of the speeds above yield in most "
-            "revolutions, in the operating range where there is one; without any, share of the Goodman line. Diamonds: above "
-            "yield, but not in most revolutions. Lines: where a requirement begins to fail.",
+            caption="Family {family} over two numbers that vary. Colour: length of the dangerous speeds, in the operating range "
+            "where there is one; without any, share of the Goodman line. Hatched: the model is left first at some speeds; the "
+            "numbers are both ends of the bracket. Lines: where a requirement begins to fail.",
             category="Families",
             arguments=lambda sweep: {"compared": _of(sweep).compared},
             offered=("verdict",),
@@ -135,8 +135,8 @@ EXTENSION = Extension(
             files={"table": TABLE},
             label="{family}",
             caption="Family {family}: what each design is and how robust, over what varies. Of blades frequencies and largest "
-            "loss of clearance as the tip swings along free modes; where interactions lie, speeds above yield in most "
-            "revolutions, in some and ever, stress, share of the Goodman line.",
+            "loss of clearance as the tip swings along free modes; where interactions lie, dangerous, unknown and "
+            "sustained speeds, stress, share of the Goodman line.",
             category="Families",
             arguments=lambda sweep: {"compared": _of(sweep).compared},
         ),

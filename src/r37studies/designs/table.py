@@ -90,6 +90,11 @@ def length_column(table: pd.DataFrame) -> str:
     return inside if inside in table and table[inside].notna().any() else RANKED_BY[0]
 
 
+def unknown_length(table: pd.DataFrame) -> pd.Series:
+    """Length (rad/s) of the unknown speeds of designs, in operation where length_column is; 0 where it is not computed."""
+    return table[length_column(table).replace("dangerous", "unknown")].fillna(0.0)
+
+
 def closing(results: Path) -> str:
     """How many designs there are, and the best: of each scene, or of all where scenes vary; those that tie are named.
 
@@ -107,16 +112,18 @@ def closing(results: Path) -> str:
 
 
 def _best(rows: pd.DataFrame, length: str, flown: bool) -> str:
-    """Text on the design with the least `length`, or on those that tie with it; `flown`: whether that is in operation."""
+    """Text on the design whose bracket ends first, or on those that tie with it; `flown`: whether that is in operation."""
     names = rows["blade"].str.cat(rows["scene"], " in ") if rows["scene"].nunique() > 1 else rows["blade"]
-    least = rows[length].min()
+    low, unknown = rows[length], unknown_length(rows)
+    least = (low + unknown).idxmin()
     # what is not known ties with all
-    within = rows[length.replace("_rad_s", "_within_rad_s")].fillna(np.inf)
-    tied = rows[rows[length] - least <= np.hypot(within, within[rows[length].idxmin()])]
+    within = rows["length_dangerous_within_rad_s"].fillna(np.inf)
+    tied = rows[low - (low + unknown)[least] <= np.hypot(within, within[least])]
     inside = " in operation" if flown else ""
     if len(tied) == 1:
-        return f"{names[tied.index[0]]} is above yield in most revolutions at the fewest speeds{inside} ({least:.0f} rad/s)"
-    text = f"{len(tied)} of {len(rows)} cannot be told apart by their speeds above yield in most revolutions{inside}"
+        bracket = f"{low[least]:.0f}" + (f" to {low[least] + unknown[least]:.0f}" if unknown[least] > 0.0 else "")
+        return f"{names[least]} is dangerous at the fewest speeds{inside} ({bracket} rad/s)"
+    text = f"{len(tied)} of {len(rows)} cannot be told apart by their dangerous and unknown speeds{inside}"
     # what diverged has no largest value
     ended = tied[tied["diverged_runs"] == 0]
     for measure, words in _TIE_BREAKERS.items():
