@@ -333,6 +333,7 @@ def motions(tmp_path):
         "rms_tangential": (over, values),
         "peak_normal": (over, values),
         "max_von_mises_median": (over, 1e12 * values),
+        "max_von_mises_inside": (over, 1e12 * values),
         "max_von_mises_ever": (over, 2e12 * values),
         "share_of_revolutions_above_yield": (over, 1.0 * (values > 2e-3)),
         "status": (over, np.zeros(values.shape)),

@@ -74,11 +74,9 @@ def draw_danger_rows(
 def kinds_of(response: xr.Dataset) -> dict[str, list[SpeedRange]]:
     """Ranges of dangerous, unknown and sustained speeds; without stress unknown are all at which the model is left."""
     if "max_von_mises_inside" in response and response["max_von_mises_inside"].notnull().any():
-        ranges = ranges_of(response).values()
-    else:
-        left = response["exit_revolution"].notnull().values.astype(float)
-        ranges = ([], ranges_above(response["speed"].values, left, 0.5), [])
-    return dict(zip(KINDS, ranges, strict=True))
+        return dict(zip(KINDS, ranges_of(response).values(), strict=True))
+    left = response["exit_revolution"].notnull().values.astype(float)
+    return dict(zip(KINDS, ([], ranges_above(response["speed"].values, left, 0.5), []), strict=True))
 
 
 def causes_text(response: xr.Dataset) -> str:

@@ -100,7 +100,7 @@ def draw_interactions(
     rows["area"] = rows["area"].fillna(_LARGEST**2 * rows["size"] / rows["scale"]).fillna(0.0).clip(lower=_SMALLEST)
     with plt.rc_context(_LETTERS | {"axes.titlesize": 10}):
         heights = [3.0 if len(scenes) < 3 else 2.4, _ROW_HEIGHT * len(drawn) or 0.01]
-        shape = {"sharex": True, "squeeze": False, "height_ratios": heights * len(scenes)}
+        shape: dict[str, Any] = {"sharex": True, "squeeze": False, "height_ratios": heights * len(scenes)}
         figure, grid = plt.subplots(2 * len(scenes), 1, figsize=(_WIDTH, 1.1 + len(scenes) * sum(heights)), **shape)
         panels = dict(zip(scenes, grid[::2, 0], strict=True))
         # the circles of what is higher stay below the upper scale
@@ -190,20 +190,9 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
         part = rows[(rows["danger"] == above) & (~diverged | (rows["size"] > 0.0))].sort_values("area", ascending=False)
         faces, edges = ([to_rgba(colours[blade], alpha) for blade in part["blade"]] for alpha in (share, 1.0))
         x, y = _places(part)
-        look = {"hatch": style.UNKNOWN["hatch"] * 2} if above == _UNKNOWN else {}
-        axes.scatter(
-            x,
-            y,
-            part["area"],
-            None,
-            marker,
-            facecolors=faces,
-            edgecolors=edges,
-            linewidths=0.9,
-            zorder=2.5,
-            clip_on=False,
-            **look,
-        )
+        look: dict[str, Any] = {"marker": marker, "linewidths": 0.9, "zorder": 2.5, "clip_on": False}
+        look |= {"hatch": style.UNKNOWN["hatch"] * 2} if above == _UNKNOWN else {}
+        axes.scatter(x, y, part["area"], facecolors=faces, edgecolors=edges, **look)
     if diverged.any():
         axes.plot(*_places(rows[diverged]), "x", color="red", zorder=2.6, label="diverged", clip_on=False)
     circles = rows[rows["size"] > 0.0]

@@ -120,9 +120,9 @@ EXTENSION = Extension(
             draw="r37studies.designs.maps.draw_design_map",
             files={"table": TABLE},
             label="map of {family}",
-            caption="Family {family} over two numbers that vary. Colour: length of the dangerous speeds, in the operating range "
-            "where there is one; without any, share of the Goodman line. Hatched: the model is left first at some speeds; the "
-            "numbers are both ends of the bracket. Lines: where a requirement begins to fail.",
+            caption="Family {family} over two numbers that vary. Colour: length of the dangerous speeds, in the operating "
+            "range where there is one; without any, share of the Goodman line. Hatched: the model is left first at some "
+            "speeds; the numbers are both ends of the bracket. Lines: where a requirement begins to fail.",
             category="Families",
             arguments=lambda sweep: {"compared": _of(sweep).compared},
             offered=("verdict",),
