@@ -125,17 +125,14 @@ def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: b
 
 
 def worst_places(run: FinishedRun, stress: StressOperators, history: np.ndarray, nodes: np.ndarray) -> dict[str, np.ndarray]:
-    """Chord, span and side by region of the largest stress in the statistic, of all blades; NaN if diverged.
+    """Chord, span and side by region of the largest stress of any revolution, of all blades; NaN if diverged.
 
     `history` and `nodes`: see stress_histories.
     """
     if run.first_diverged is not None:
         return dict.fromkeys(PLACE_OF_STRESS, np.full(len(stress), np.nan))
-    choice = run.problem.choice
-    reached = len(run.records[0].snapshots) // choice.snapshots_per_revolution
-    late = slice(max(reached - choice.revolutions_in_statistic, 0), reached)
-    regions = zip(stress.values(), history[:, :, late], nodes[:, :, late], strict=True)
-    places = np.array([operator.place(worst.flat[largest.argmax()]) for operator, largest, worst in regions])
+    regions = zip(stress.values(), history, nodes, strict=True)
+    places = np.array([operator.place(worst.flat[np.nanargmax(largest)]) for operator, largest, worst in regions])
     return dict(zip(PLACE_OF_STRESS, places.T, strict=True))
 
 
@@ -238,10 +235,10 @@ def _so_far(run: FinishedRun) -> dict[str, Any]:
     Between two marks of the totals the heat is a straight line, all else what it is at the later one. `friction_power`: the
     largest mean over HEATED revolutions, or over a shorter run.
     """
-    problem, shape = run.problem, (len(run.states), run.problem.choice.revolutions)
+    problem, shape = run.problem, (len(run.states), run.ending.revolutions)
     forces, heats, bounded = (np.full(shape, np.nan) for _ in range(3))
     for blade, state in enumerate(run.states):
-        samples, totals = zip((0, np.zeros((), TOTALS)), *state.marks, (state.samples, state.totals), strict=True)
+        samples, totals = zip((0, np.zeros((), TOTALS)), *(state.marks or [(state.samples, state.totals)]), strict=True)
         marks, values = np.array(samples) / problem.choice.samples_per_revolution, np.stack(totals)
         done = np.arange(1, min(int(marks[-1]), shape[1]) + 1)
         later = np.searchsorted(marks, done)

@@ -18,7 +18,7 @@ _number = partial(Variable, ())
 _TIP, _REGION, _BLADES = ("tip_point",), ("region",), ("blade_number",)
 _LEADING_EDGE = "the leading edge's displacement, normal and tangential together,"
 _HISTORY = "largest von Mises stress of each revolution, as far as it has snapshots"
-_SO_FAR = ("revolution",)
+_SO_FAR = ("done_revolution",)
 
 PLACES = {
     "chord": "0 at the leading, 1 at the trailing edge",
@@ -88,7 +88,7 @@ LAST_STRESS = {
 }
 
 PLACE_OF_STRESS = {
-    f"max_von_mises_{name}": Variable(_REGION, "1", f"{name} of the largest stress of the later revolutions: {meaning}")
+    f"max_von_mises_{name}": Variable(_REGION, "1", f"{name} of the largest stress of any revolution: {meaning}")
     for name, meaning in PLACES.items()
 }
 

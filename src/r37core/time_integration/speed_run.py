@@ -104,7 +104,7 @@ def numbers_of_run(
         # as far as a run got that diverged
         numbers["peak_share_of_height"] = np.max(reached, where=np.isfinite(reached), initial=0.0) / model.quadratic.height
         numbers["share_of_height_limit"] = model.quadratic.share_within(PATH_ERROR * scene.casing.clearance)
-        numbers["revolution_share_of_height"] = reached.max(axis=(1, 2)) / model.quadratic.height
+        numbers["revolution_share_of_height"] = reached[: run.ending.revolutions].max(axis=(1, 2)) / model.quadratic.height
     numbers |= kept_numbers.limit_numbers(run, totals)
     numbers |= ending_numbers(run, samples)
     if scene.rotor is None:
