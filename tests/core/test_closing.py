@@ -16,7 +16,7 @@ from r37core.product.extensions import EXTENSIONS
 from r37core.product.remarks import line_of_extension
 from r37core.results.closing import lining_texts
 
-HEAD = "blade,scene,mode,engine_order,share_of_revolutions_above_yield,largest_stress_pa,largest_stress_over_yield,"
+HEAD = "blade,scene,mode,engine_order,length_dangerous_rad_s,largest_stress_inside_pa,largest_stress_over_yield,"
 HEAD += "largest_stress_speed_rad_s"
 ROWS = ("Ref,abradable,1B,7,0.7,8.56e+09,6.2,838", "S50,abradable,,4,0.4,9.5e+09,6.88,1686")
 ROWS += ("Ref,direct,1T,9,0,1e+09,0.7,1344", "L50,direct,,2,,,,")
@@ -41,10 +41,9 @@ def test_found_where_and_how_long(tmp_path):
     found, remark, where, took = closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0, ["contact acts on points"])
     assert remark == "contact acts on points"
     what, worst = found.split("; ")
-    assert what == "found 4 interactions, 1 of them above yield in most revolutions, 1 in some"
+    assert what == "found 4 interactions, 2 of them dangerous (above yield inside the model's limits)"
     assert worst == (
-        "the largest stress 9.50 GPa, 6.88 times yield, S50 in abradable at 1686 rad/s (engine order 4), "
-        "above yield in up to 40% of the revolutions"
+        "the largest stress 9.50 GPa, 6.88 times yield before the model is left, S50 in abradable at 1686 rad/s (engine order 4)"
     )
     assert where == f"look at {tmp_path}/explorer.html (any browser), {tmp_path}/summary.csv, {tmp_path}/figures/"
     assert took == "took 13 min 30 s"
@@ -54,70 +53,69 @@ def test_found_where_and_how_long(tmp_path):
     # a combination, at a peak that two speeds show
     rows = [f"Fan,bare,7-5,6,0.7,1e+09,1.1,470,{note}" for note in ("not resolved: one or two speeds", "")]
     said = last_lines(tmp_path, *rows, columns=",note")[0]
-    assert "2 of them above yield in most revolutions, 0 in some, 1 not resolved, as one" in said and "(7-5/6)" in said
+    assert "2 of them dangerous (above yield inside the model's limits), 1 not resolved, as one" in said and "(7-5/6)" in said
 
 
 def test_more_columns_say_more(tmp_path):
     """None above yield, the linings that are worn through, and the digits that a range bears."""
     said = last_lines(tmp_path, ROWS[2])[0]
     assert said == (
-        "found 1 interaction, none of them above yield in any later revolution; "
-        "the largest stress 1.00 GPa, 0.7 times yield, Ref in direct at 1344 rad/s (1T/9)"
+        "found 1 interaction, none of them dangerous (above yield inside the model's limits); "
+        "the largest stress 1.00 GPa, 0.7 times yield before the model is left, Ref in direct at 1344 rad/s (1T/9)"
     )
     assert last_lines(tmp_path, ROWS[3])[0] == "found 1 interaction"
-    # a few revolutions are said, and the worst is that of the largest share of its own yield
-    few = "Fan,bare,,2,0.0005,9e8,1.2,500"
-    said = last_lines(tmp_path, few, "Ref,bare,,2,0,1e9,0.7,500")[0]
-    assert "0 of them above yield in most revolutions, 1 in some; the largest stress 0.90 GPa, 1.2 times yield, Fan" in said
-    assert said.endswith("above yield in up to 1% of the revolutions")
+    # the worst is that of the largest share of its own yield; one that leaves the model first is unknown
+    said = last_lines(tmp_path, "Fan,bare,,2,0.5,9e8,1.2,500,0", "Ref,bare,,2,0,1e9,0.7,500,4", columns=",length_unknown_rad_s")[0]
+    assert ", 1 of them dangerous (above yield inside the model's limits), 1 unknown (these are left first); " in said
+    assert "the largest stress 0.90 GPa, 1.2 times yield before the model is left, Fan" in said
     rows = [f"{row},{share}" for row, share in zip(ROWS, ("0.2", "0", "", ""), strict=True)]
     said = last_lines(tmp_path, *rows, columns=",worn_through_share")[0]
-    assert " in most revolutions, 1 in some, 1 with the lining worn through to the casing; the largest" in said
-    columns = ",largest_stress_pa_low,largest_stress_pa_median,largest_stress_pa_high"
+    assert " inside the model's limits), 1 with the lining worn through to the casing; the largest" in said
+    columns = ",largest_stress_inside_pa_low,largest_stress_inside_pa_median,largest_stress_inside_pa_high"
     for ends, said in ((",2.02e9,8.6e9,1.41e10", "9 GPa (2 to 14 in nine tenths of the members)"), (",,,", "8.56 GPa")):
-        assert f"the largest stress {said}, 6.2 times yield, Ref" in last_lines(tmp_path, ROWS[0] + ends, columns=columns)[0]
+        assert f"the largest stress {said}, 6.2 times yield before the model is left, Ref" in last_lines(tmp_path, ROWS[0] + ends, columns=columns)[0]
 
 
 def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
-    head = "blade,scene,rank,length_most_revolutions_rad_s,length_most_revolutions_scatter_rad_s,largest_gap_rad_s\n"
-    rows = ("S100,lined,1,13.2,,20\n", "Ref,lined,2,70.6,,20\n", "Ref,direct,1,47.1,7.6,10\n", "S100,direct,2,854.2,21.1,10\n")
+    head = "blade,scene,rank,length_dangerous_rad_s,length_unknown_rad_s,largest_gap_rad_s\n"
+    rows = ("S100,lined,1,13.2,0,20\n", "Ref,lined,2,70.6,0,20\n", "Ref,direct,1,47.1,0,10\n", "S100,direct,2,854.2,0,10\n")
     (tmp_path / "ranking.csv").write_text(head + "".join(rows))
     lined, direct, missed = last_lines(tmp_path, *ROWS)[1:4]
     assert lined.startswith(
-        "lined: S100 is above yield in most revolutions at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); "
+        "lined: S100 is dangerous at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); "
     )
     assert direct.startswith(
-        "direct: Ref is above yield in most revolutions at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); "
+        "direct: Ref is dangerous at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); "
     )
     assert missed == "speeds lie up to 20 rad/s apart: a narrower interaction between them may be missed"
     # those that share a rank cannot be told apart, and are all named
-    rows = ["A,x,1,40,6,0", "B,x,1,45,6,0", "A,y,1,0,,0", "B,y,1,5,,0", "C,y,3,9,,0", *(f"D{n},z,1,0,,0" for n in range(12))]
+    rows = ["A,x,1,40,0,0", "B,x,1,40,5,0", "A,y,1,0,0,0", "B,y,1,5,0,0", "C,y,3,9,0,0", *(f"D{n},z,1,0,0,0" for n in range(12))]
     (tmp_path / "ranking.csv").write_text(head + "\n".join(rows) + "\n")
     x, y, z = last_lines(tmp_path, *ROWS)[1:-2]
-    assert x.startswith("x: A and B cannot be ranked (above yield in most revolutions over 40 to 45 rad/s); ")
+    assert x.startswith("x: A and B cannot be ranked (dangerous over 40 to 45 rad/s); ")
     assert y.startswith(
-        "y: A and B are above yield in most revolutions at the fewest speeds (0 to 5 rad/s), C at the most (9 rad/s); "
+        "y: A and B are dangerous at the fewest speeds (0 to 5 rad/s), C at the most (9 rad/s); "
     )
-    assert z.startswith("z: D0, D1, D2, D3 and 8 more cannot be ranked (above yield in most revolutions over 0 rad/s); ")
+    assert z.startswith("z: D0, D1, D2, D3 and 8 more cannot be ranked (dangerous over 0 rad/s); ")
 
 
 def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     """A sum of several ranges is told apart from the widest of them."""
-    head = "blade,scene,rank,contact,rank_over_scenes,length_most_revolutions_rad_s,"
-    head += "ranges_most_revolutions,widest_range_from_rad_s,widest_range_rad_s\n"
-    points = "S100,x,1,{0},3,13.2,1,1200,13.2\nA,x,2,{0},1,40,1,1200,40\nRef,x,3,{0},1,128.9,3,1635.2,119.9\n"
-    points += "Ref,y,1,{0},1,47,1,1300,47\nA,y,2,{0},1,130,2,900,100\nS100,y,3,{0},3,854.2,4,900,800\n"
+    head = "blade,scene,rank,contact,rank_over_scenes,length_unknown_rad_s,length_dangerous_rad_s,"
+    head += "ranges_dangerous,widest_range_from_rad_s,widest_range_rad_s\n"
+    points = "S100,x,1,{0},3,0,13.2,1,1200,13.2\nA,x,2,{0},1,0,40,1,1200,40\nRef,x,3,{0},1,0,128.9,3,1635.2,119.9\n"
+    points += "Ref,y,1,{0},1,0,47,1,1300,47\nA,y,2,{0},1,0,130,2,900,100\nS100,y,3,{0},3,0,854.2,4,900,800\n"
     points = points.format('"8 points, linear"')
     (tmp_path / "ranking.csv").write_text(head + points)
     lined, bare, over, contact = last_lines(tmp_path, *ROWS)[1:-2]
-    assert lined.startswith("8 points, linear: x: S100 is above yield") and over.startswith(
+    assert lined.startswith("8 points, linear: x: S100 is dangerous") and over.startswith(
         "8 points, linear: over both scenes"
     )
     assert "Ref at the most (129 rad/s in 3 ranges, the widest from 1635 to 1755); " in lined and "(13 rad/s)" in lined
     assert "S100 at the most (854 rad/s in 4 ranges" in bare
     assert over.endswith(", by the longest length in any (rad/s): Ref 129 = A 130, S100 854 (=: cannot be told apart)")
     assert contact == ("the ranking is of contact on points; a decision needs structure: { boundary: { contact: patches } }")
-    patches = 'Mine,x,1,"patches, {0}",1,5,1,900,5\nMine,y,1,"patches, {0}",1,5,1,900,5\n'
+    patches = 'Mine,x,1,"patches, {0}",1,0,5,1,900,5\nMine,y,1,"patches, {0}",1,0,5,1,900,5\n'
     (tmp_path / "ranking.csv").write_text(head + points + patches.format("linear"))
     contact = last_lines(tmp_path, *ROWS)[-3]
     among = "(8 points, linear: S100, A, Ref; patches, linear: Mine)"

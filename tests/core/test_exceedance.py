@@ -50,20 +50,26 @@ def test_ranges_are_of_straight_lines():
     assert joined(touching) == [span(0.0, 1.0), span(2.0, 6.0)]
 
 
-def test_speeds_above_yield_by_stress_and_by_its_error():
-    """A stress of 1.5 of yield at one speed, in a fifth of the revolutions; an error moves a length up or down."""
-    runs = {"status": [0, 0, 0], "max_von_mises_ever": [1.0, 3.0, 1.0], "share_of_revolutions_above_yield": [0.0, 0.2, 0.0]}
+def test_dangerous_and_unknown_speeds_and_what_an_error_moves():
+    """A stress of 1.5 of yield at one speed; a speed that leaves the model first is unknown half of the way to the next."""
+    runs = {"status": [0, 0, 0], "share_of_revolutions_above_yield": [0.0, 0.2, 0.0]}
     response = xr.Dataset({name: ("speed", values) for name, values in runs.items()}, {"speed": [1000.0, 1100.0, 1200.0]})
-    response = response.assign(yield_stress=2.0, lined=1.0, low=("speed", [4.0, 1.8, 1.8]), high=("speed", [4.0, 2.2, 2.2]))
-    most, some, ever = ranges_of(response, exceedance_of(response)).values()
-    assert (most, some) == ([], [span(1025.0, 1175.0)])
-    assert ever == [span(1025.0, 1175.0)]
-    assert moved_by_error(response, "max_von_mises_ever", 0.2) == pytest.approx(40.0)
-    assert moved_by_error(response, "low", 0.25) == pytest.approx(200.0 - 100.0 / 1.1)
-    assert moved_by_error(response, "high", 0.25) == pytest.approx(200.0 - 75.0 / 0.9)
-    assert np.isnan(moved_by_error(response, "low", np.nan))
+
+    def of_stress(*stress, left=(np.nan, np.nan, np.nan)):
+        values = {"max_von_mises_inside": ("speed", list(stress)), "exit_revolution": ("speed", list(left))}
+        return response.assign(values | {"yield_stress": 2.0, "lined": 1.0})
+
+    inside = of_stress(1.0, 3.0, 1.0)
+    assert list(ranges_of(inside).values()) == [[span(1025.0 + 25.0, 1150.0)], [], []]
+    known = danger_of(of_stress(1.0, 1.8, 1.0, left=(np.nan, 7.0, np.nan)))
+    assert (known["length_dangerous_rad_s"], known["length_unknown_rad_s"]) == (0.0, 100.0)
+    assert danger_of(of_stress(1.0, 3.0, 1.0, left=(np.nan, 7.0, np.nan)))["length_unknown_rad_s"] == 0.0
+    assert moved_by_error(inside, 0.2) == pytest.approx(40.0)
+    assert moved_by_error(of_stress(4.0, 1.8, 1.8), 0.25) == pytest.approx(200.0 - 100.0 / 1.1)
+    assert moved_by_error(of_stress(4.0, 2.2, 2.2), 0.25) == pytest.approx(200.0 - 75.0 / 0.9)
+    assert np.isnan(moved_by_error(inside, np.nan))
     # without stress nothing is known
-    assert np.isnan(list(danger_of(response[["status", "lined"]]).values())).all()
+    assert np.isnan(list(danger_of(inside[["status", "lined"]]).values())).all()
 
 
 @pytest.mark.parametrize("step", [1.0, 5.0, 10.0])
@@ -112,8 +118,8 @@ def test_a_share_of_none_or_all_revolutions_is_smoothed_with_what_chance_may_giv
     # a line between the speeds of a border is above a twentieth for 0.45 of 5 rad/s more
     assert found.length(SOME) == pytest.approx(85.0 + 4.0 * 0.45 * 5.0)
     # without chance, and with four borders of which each lies anywhere between two speeds
-    for share in MOST_REVOLUTIONS:
-        assert np.std([length_of(ranges) for ranges in found.ranges_drawn[share]]) == 0.0
+    for share in (MOST_REVOLUTIONS, SOME):
+        assert np.std([length_of(ranges) for ranges in found.ranges_drawn(share)]) == 0.0
         assert found.scatter_of_length(share) == pytest.approx(np.sqrt(4.0 * 5.0**2 / 12.0))
 
 
@@ -200,7 +206,7 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     rows = rows_of(response(speeds, shares, ever=ever), [])
     for speed in speeds[ever > 1e9]:
         assert any(every["from_rad_s"] <= speed <= every["to_rad_s"] for every in rows), speed
-    assert [every["length_most_revolutions_rad_s"] > 0.0 for every in rows] == [False, True]
+    assert [every["length_most_revolutions_rad_s"] > 0.0 for every in rows] == [False] * (len(rows) - 1) + [True]
 
 
 def test_the_motion_falls_where_it_stays_down():
@@ -277,8 +283,7 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     found = robustness(one)
     assert set(found) == set(names(ROBUSTNESS))
     expected = {"length_most_revolutions_rad_s": 10.0, "largest_gap_rad_s": 10.0, "ranges_dangerous": 1}
-    # from what diverged nothing of the way to the next speed counts
-    expected |= {"length_dangerous_rad_s": 0.0, "widest_range_rad_s": 0.0, "widest_range_from_rad_s": 950.0}
+    expected |= {"length_dangerous_rad_s": 10.0, "widest_range_rad_s": 10.0, "widest_range_from_rad_s": 945.0}
     assert expected.items() <= found.items()
     assert robustness(response(SPEEDS, np.zeros(11), lined=1))["widest_range_rad_s"] == 0.0
     nothing = np.full(len(SPEEDS), np.nan)

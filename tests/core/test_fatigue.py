@@ -44,7 +44,7 @@ def cycles_of(components, states):
         operator[component, 0] = row
     count = states.shape[1]
     stress = StressOperator(operator, count, "")
-    alternating, mean = stress_cycles(stress, states, np.eye(count), np.empty(0), PER_REVOLUTION)
+    alternating, mean = stress_cycles(stress, states, np.eye(count), np.empty(0), PER_REVOLUTION, len(states) // PER_REVOLUTION)
     assert alternating.shape == (REVOLUTIONS, 1)
     return alternating, mean
 
@@ -105,6 +105,7 @@ def test_without_vibration_the_largest_mean_is_left():
 def test_numbers_of_known_revolutions():
     """Shares 0.5 and 0.4 in the first revolution, 1.2 in the second, 0.9 in the third."""
     run = {"cycle_alternating": np.array([4.0, 2.0, 11.0, 6.0]), "cycle_mean": np.array([2.0, 4.0, 2.0, 6.0])}
+    run["statistic_revolutions"] = np.array(3)
     found = goodman_statistic({**run, "cycle_counts": np.array([[2, 1, 1]])}, Strengths(10.0, 20.0))
     wanted = {"goodman_share": 1.2, "goodman_share_median": 0.9, "share_of_revolutions_above_goodman": 1 / 3}
     wanted |= {"goodman_alternating_stress": 11.0, "goodman_mean_stress": 2.0, "fatigue_strength": 10.0}
@@ -124,25 +125,25 @@ def a_run(contact, stress):
 
 
 def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
-    """The displacement of the whole mesh at each instant, its stress tensors, their mean, and the difference from it."""
+    """The displacement of the whole mesh at each instant, its stress tensors, their later mean, and the difference from it."""
     run, numbers = a_run
     problem, region = run.problem, model.stress_regions["box"].nodes.nodes
     places = inner_places(model, mesh)
-    instants = 3 * CHOICE.snapshots_per_revolution
-    states = run.records[0].snapshots[-instants:] @ (problem.model.to_reduced @ problem.contact.state_shapes).T
+    # the statistic has half of the six revolutions
+    later = 3 * CHOICE.snapshots_per_revolution
+    states = run.records[0].snapshots @ (problem.model.to_reduced @ problem.contact.state_shapes).T
     fields = whole.whole_blade
     order = np.argsort(fields.nodes)
     amplitudes = rotation_amplitudes(whole.rotation_stiffening, 1340.0)
     displacement = np.einsum("nxj,tj->nxt", fields.basis[order], states)
     displacement += (fields.rotation_shapes[order] @ amplitudes)[..., None]
     tensors = recovered_stress(mesh.blocks, mesh.points, displacement, steel, False)[:, region[places]]
-    mean = tensors.mean(axis=2, keepdims=True)
+    mean = tensors[..., -later:].mean(axis=2, keepdims=True)
     alternating = von_mises(tensors - mean).max(axis=1)
     assert alternating.min() > 1e7
     np.testing.assert_allclose(numbers["alternating_stress"][places], alternating, rtol=1e-5)
     np.testing.assert_allclose(numbers["mean_stress"][places], mean[:3, :, 0].sum(axis=0), rtol=1e-4, atol=1e3)
-    # the statistic has half of the six revolutions
-    assert numbers["cycle_counts"].shape == (1, 3)
+    assert numbers["cycle_counts"].shape == (1, 6)
 
 
 def test_rotation_is_in_the_mean_whatever_the_scene_asks_for(a_run, contact, stress):
@@ -167,7 +168,7 @@ def test_a_rotor_has_the_largest_of_its_blades(contact, stress):
 
     alone = [shares([place]) for place in range(2)]
     np.testing.assert_allclose(shares([0, 1]), np.maximum(*alone), rtol=1e-6)
-    assert np.abs(alone[0] - alone[1]).min() > 0.01 * alone[0].max()
+    assert np.abs(alone[0] - alone[1]).max() > 0.01 * alone[0].max()
 
 
 SPEEDS = [1000.0, 1340.0, 1700.0]

@@ -35,7 +35,8 @@ def campbell():
 
 def stresses(values):
     """Variables of a stress (Pa) that is the same in all revolutions, at each speed."""
-    same = {f"max_von_mises_{name}": ("speed", values) for name in ("median", "high", "ever")}
+    same = {f"max_von_mises_{name}": ("speed", values) for name in ("median", "high", "ever", "inside")}
+    same |= {"exit_revolution": ("speed", np.full(np.shape(values), np.nan))}
     return same | {"share_of_revolutions_above_yield": ("speed", np.greater(values, YIELD).astype(float))}
 
 
@@ -93,11 +94,11 @@ def test_a_row_of_each_branch():
     last = rows[-1]
     assert last["drop"] == pytest.approx(1.0, abs=0.02)
     assert (last["peak_rms_normal_m"], last["peak_rms_tangential_m"]) == pytest.approx((1e-5, 2e-3))
-    # stress is above yield from 25 rad/s before the peak on; 5% of the way to a speed below yield some revolutions are no more
-    assert last["length_ever_rad_s"] == last["length_some_revolutions_rad_s"] == pytest.approx(25.0 + 2.0 * 0.95 * 5.0)
+    # stress is at yield 25 rad/s before the peak, and half of the way to the next speed again
+    assert last["length_dangerous_rad_s"] == pytest.approx(27.5, abs=0.1)
     assert last["share_of_revolutions_above_yield"] == 1.0
     assert last["largest_stress_pa"] == pytest.approx(2e9, rel=1e-3)
-    assert rows[0]["length_ever_rad_s"] == rows[0]["share_of_revolutions_above_yield"] == 0.0 and last["status"] == "completed"
+    assert rows[0]["length_dangerous_rad_s"] == rows[0]["share_of_revolutions_above_yield"] == 0.0 and last["status"] == "completed"
     assert np.isnan(last["max_wear_m"])
 
 
@@ -105,18 +106,18 @@ def test_single_speeds_below_yield_do_not_end_the_range():
     """Near the end of a branch the motion is chaotic: the length is that of all speeds above."""
     data = response(tangential=[(1715.0, 4e-3, 4)], step=1.0)
     whole = found(data)[0]
-    for name in ("max_von_mises_ever", "rms_tangential"):
+    for name in ("max_von_mises_inside", "rms_tangential"):
         data[name].loc[{"speed": [1713.0, 1714.0]}] *= 0.1
     data["share_of_revolutions_above_yield"].loc[{"speed": [1713.0, 1714.0]}] = 0.0
     (broken,) = found(data)
-    # of the intervals on both sides of the two speeds a twentieth
-    assert broken["length_ever_rad_s"] == pytest.approx(whole["length_ever_rad_s"] - 1.0 - 2.0 * 0.05)
+    # the stress falls to a tenth and rises again in straight lines
+    assert broken["length_dangerous_rad_s"] == pytest.approx(whole["length_dangerous_rad_s"] - 1.35, abs=0.01)
 
 
 def test_a_row_has_the_worst_within_its_interaction():
     """Stress, what is worn through, and a run that diverged, which is above yield."""
     data = response(tangential=[(1715.0, 2e-3, 4), (900.0, 1e-3, 2)])
-    data["max_von_mises_ever"].loc[{"speed": [1705.0, 880.0]}] = [5e9, 9e9]
+    data["max_von_mises_inside"].loc[{"speed": [1705.0, 880.0]}] = [5e9, 9e9]
     data["status"].loc[{"speed": 1720.0}] = RunStatus.DIVERGED
     for name in (*stresses(0.0), "rms_tangential", "rms_normal"):
         data[name].loc[{"speed": 1720.0}] = np.nan
@@ -124,8 +125,8 @@ def test_a_row_has_the_worst_within_its_interaction():
     rows = found(data.assign(worn_through_share=share, largest_penetration=1e-3 * share))
     assert [row["status"] for row in rows] == ["completed", "diverged"]
     stress = rows[-1]
-    assert (stress["largest_stress_pa"], stress["largest_stress_speed_rad_s"]) == (5e9, 1705.0)
-    assert stress["length_ever_rad_s"] == pytest.approx(1720.0 - 1690.0 + 0.95 * 5.0)
+    assert (stress["largest_stress_inside_pa"], stress["largest_stress_speed_rad_s"]) == (5e9, 1705.0)
+    assert stress["length_dangerous_rad_s"] == pytest.approx(1720.0 - 1690.0, abs=0.01)
     assert (rows[-1]["peak_speed_rad_s"], [row["worn_through_share"] for row in rows]) == (1715.0, [0.0, 0.2])
     assert np.isnan(found(data)[0]["worn_through_share"])
     assert [row["largest_penetration_m"] for row in rows] == [0.0, 2e-4]
@@ -192,8 +193,8 @@ def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
     data = response([(1265.0, 5e-5, 5)], [(900.0, 30e-3, 3), (1265.0, 5e-3, 5), (1400.0, 2e-3, 2)])
     row = found(data)[1]
     assert title(row) == "1B/5"
-    assert row["length_ever_rad_s"] < 50.0
-    data["max_von_mises_ever"].loc[{"speed": 1400.0}] = 90e9
+    assert row["length_dangerous_rad_s"] < 50.0
+    data["max_von_mises_inside"].loc[{"speed": 1400.0}] = 90e9
     # as texts: what is NaN in both is the same
     assert repr(found(data)[1]) == repr(row)
 
@@ -216,7 +217,7 @@ def test_the_table_of_all():
     assert list(table["scene"]) == ["lined", "lined", "bare", "bare"]
     lined, bare = table.iloc[1], table.iloc[3]
     assert (lined["largest_stress_pa"], lined["engine_order"]) == (pytest.approx(2e9, rel=1e-3), 4)
-    assert np.isnan([bare["largest_stress_pa"], bare["length_ever_rad_s"]]).all()
+    assert np.isnan([bare["largest_stress_pa"], bare["length_dangerous_rad_s"]]).all()
     # an order is a whole number in the file, and a scene without a spectrum has no order where nothing is near
     text = table.to_csv(index=False)
     assert "Ref,lined,1B,4,tangential,1672.0,1715.0," in text

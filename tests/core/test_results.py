@@ -278,7 +278,7 @@ def test_response_holds_every_speed(sweep):
         history = history.squeeze("region")
         assert history[-1] == pytest.approx(float(response[LAST].sel(speed=1200.0).squeeze()), rel=1e-6)
         first = int(np.flatnonzero(history.values > 1.0)[0]) + 1
-        assert response["first_yield_revolution"].sel(history_speed=1200.0) == first
+        assert response["first_yield_revolution"].sel(speed=1200.0) == first
         for name, variable in response.variables.items():
             assert name in ("tip_point", "region") or {"units", "long_name"} <= set(variable.attrs), name
     with xr.open_dataset(files["Ref", "direct"]) as response:
@@ -398,7 +398,7 @@ def test_candidates_have_the_largest_stress_of_all_nodes(model, every_node, cont
     run, results = Simulation(contact, speed, DIRECT, choice).run(), ("stress", "static_stress")
     found, wanted = (numbers_of_run(run, results, stress=each, **KEPT)["revolution_von_mises"] for each in (few, all_nodes))
     np.testing.assert_array_equal(found[2], wanted[2])
-    ratio = found[:2] / wanted[:2]
+    ratio = found[:2, -20:] / wanted[:2, -20:]
     assert ratio.max() < 1.0 + 1e-5 and ratio.min() > 0.95
     assert np.median(ratio) == 1.0 and ratio.mean(axis=1).min() > 0.998
 
@@ -526,6 +526,6 @@ def test_the_ranking_has_a_length_in_each_other_region(datasets, tmp_path):
 def test_the_summary_has_the_place(responses):
     response = read_judged(responses["Ref", "direct"])
     (row,) = [row for row in find_interactions(response, xr.Dataset(), InteractionChoice()) if row["max_von_mises_span"] > 0.0]
-    worst = response.isel(speed=int(np.argmax(response["max_von_mises_ever"].values)))
+    worst = response.isel(speed=int(np.argmax(response["max_von_mises_inside"].values)))
     for name in ("span", "chord", "side"):
         assert row[f"max_von_mises_{name}"] == worst[f"max_von_mises_{name}"]

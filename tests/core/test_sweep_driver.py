@@ -38,7 +38,7 @@ TASK = json.dumps({"height": 1.0})
 def sweep(tmp_path):
     (tmp_path / "contact.npz").write_bytes(b"a model")
     given = {"contact_model": str(tmp_path / "contact.npz")}
-    return BladeSweep(given, {}, ("contact_model",), TASK, (), "", np.inf, Strengths())
+    return BladeSweep(given, {}, ("contact_model",), TASK, (), np.inf, Strengths())
 
 
 @pytest.fixture
@@ -108,9 +108,8 @@ def test_sweeps_share_their_speeds_and_a_broken_run_asks_for_the_same_ones(tmp_p
     assert run_speeds()[len(done) :] == ["1040"]
 
 
-def test_histories_have_a_task_of_their_own(sweep):
-    kept = BladeSweep(**{**vars(sweep), "history_speeds": (1040.0,), "history_task": "{}"})
-    assert kept.task_at(1040.0) == "{}" and kept.task_at(1000.0) == TASK
+def test_a_sweep_is_plain_data(sweep):
+    kept = BladeSweep(**{**vars(sweep), "history_speeds": (1040.0,)})
     assert from_plain(BladeSweep, to_plain(kept)) == kept
     plan = SharedSpeeds(SpeedPlan((1.0,)), CHOICE)
     assert from_plain(SharedSpeeds, to_plain(plan)) == plan
