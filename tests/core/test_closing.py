@@ -65,7 +65,9 @@ def test_more_columns_say_more(tmp_path):
     )
     assert last_lines(tmp_path, ROWS[3])[0] == "found 1 interaction"
     # the worst is that of the largest share of its own yield; one that leaves the model first is unknown
-    said = last_lines(tmp_path, "Fan,bare,,2,0.5,9e8,1.2,500,0", "Ref,bare,,2,0,1e9,0.7,500,4", columns=",length_unknown_rad_s")[0]
+    said = last_lines(
+        tmp_path, "Fan,bare,,2,0.5,9e8,1.2,500,0", "Ref,bare,,2,0,1e9,0.7,500,4", columns=",length_unknown_rad_s"
+    )[0]
     assert ", 1 of them dangerous (above yield inside the model's limits), 1 unknown (these are left first); " in said
     assert "the largest stress 0.90 GPa, 1.2 times yield before the model is left, Fan" in said
     rows = [f"{row},{share}" for row, share in zip(ROWS, ("0.2", "0", "", ""), strict=True)]
@@ -73,7 +75,10 @@ def test_more_columns_say_more(tmp_path):
     assert " inside the model's limits), 1 with the lining worn through to the casing; the largest" in said
     columns = ",largest_stress_inside_pa_low,largest_stress_inside_pa_median,largest_stress_inside_pa_high"
     for ends, said in ((",2.02e9,8.6e9,1.41e10", "9 GPa (2 to 14 in nine tenths of the members)"), (",,,", "8.56 GPa")):
-        assert f"the largest stress {said}, 6.2 times yield before the model is left, Ref" in last_lines(tmp_path, ROWS[0] + ends, columns=columns)[0]
+        assert (
+            f"the largest stress {said}, 6.2 times yield before the model is left, Ref"
+            in last_lines(tmp_path, ROWS[0] + ends, columns=columns)[0]
+        )
 
 
 def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
@@ -81,21 +86,22 @@ def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
     rows = ("S100,lined,1,13.2,0,20\n", "Ref,lined,2,70.6,0,20\n", "Ref,direct,1,47.1,0,10\n", "S100,direct,2,854.2,0,10\n")
     (tmp_path / "ranking.csv").write_text(head + "".join(rows))
     lined, direct, missed = last_lines(tmp_path, *ROWS)[1:4]
-    assert lined.startswith(
-        "lined: S100 is dangerous at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); "
-    )
-    assert direct.startswith(
-        "direct: Ref is dangerous at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); "
-    )
+    assert lined.startswith("lined: S100 is dangerous at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); ")
+    assert direct.startswith("direct: Ref is dangerous at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); ")
     assert missed == "speeds lie up to 20 rad/s apart: a narrower interaction between them may be missed"
     # those that share a rank cannot be told apart, and are all named
-    rows = ["A,x,1,40,0,0", "B,x,1,40,5,0", "A,y,1,0,0,0", "B,y,1,5,0,0", "C,y,3,9,0,0", *(f"D{n},z,1,0,0,0" for n in range(12))]
+    rows = [
+        "A,x,1,40,0,0",
+        "B,x,1,40,5,0",
+        "A,y,1,0,0,0",
+        "B,y,1,5,0,0",
+        "C,y,3,9,0,0",
+        *(f"D{n},z,1,0,0,0" for n in range(12)),
+    ]
     (tmp_path / "ranking.csv").write_text(head + "\n".join(rows) + "\n")
     x, y, z = last_lines(tmp_path, *ROWS)[1:-2]
     assert x.startswith("x: A and B cannot be ranked (dangerous over 40 to 45 rad/s); ")
-    assert y.startswith(
-        "y: A and B are dangerous at the fewest speeds (0 to 5 rad/s), C at the most (9 rad/s); "
-    )
+    assert y.startswith("y: A and B are dangerous at the fewest speeds (0 to 5 rad/s), C at the most (9 rad/s); ")
     assert z.startswith("z: D0, D1, D2, D3 and 8 more cannot be ranked (dangerous over 0 rad/s); ")
 
 
@@ -108,9 +114,7 @@ def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     points = points.format('"8 points, linear"')
     (tmp_path / "ranking.csv").write_text(head + points)
     lined, bare, over, contact = last_lines(tmp_path, *ROWS)[1:-2]
-    assert lined.startswith("8 points, linear: x: S100 is dangerous") and over.startswith(
-        "8 points, linear: over both scenes"
-    )
+    assert lined.startswith("8 points, linear: x: S100 is dangerous") and over.startswith("8 points, linear: over both scenes")
     assert "Ref at the most (129 rad/s in 3 ranges, the widest from 1635 to 1755); " in lined and "(13 rad/s)" in lined
     assert "S100 at the most (854 rad/s in 4 ranges" in bare
     assert over.endswith(", by the longest length in any (rad/s): Ref 129 = A 130, S100 854 (=: cannot be told apart)")

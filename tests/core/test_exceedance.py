@@ -325,7 +325,9 @@ def test_blades_that_cannot_be_told_apart_share_a_rank():
     bare = response(SPEEDS, (SPEEDS > 945.0).astype(float), lined=1)
     unknown = robustness(bare, error=np.nan)
     assert ranking_table({("A", "x"): unknown, ("B", "x"): of(900.0)})["rank"].tolist() == [1, 1]
-    none = ranking_table({(name, "x"): of(low, more) | step for name, low, more in (("A", 45.0, 0.0), ("B", 0.0, 40.0), ("C", 0.0, 5.0))})
+    none = ranking_table(
+        {(name, "x"): of(low, more) | step for name, low, more in (("A", 45.0, 0.0), ("B", 0.0, 40.0), ("C", 0.0, 5.0))}
+    )
     assert none[["blade", "rank", "rank_highest"]].values.tolist() == [["C", 1, 2], ["B", 1, 3], ["A", 3, 3]]
     assert ranks_of(pd.DataFrame([of(0.0, stress=9e8), of(0.0, stress=1e8)]))["rank"].tolist() == [1, 1]
 

@@ -98,7 +98,10 @@ def test_a_row_of_each_branch():
     assert last["length_dangerous_rad_s"] == pytest.approx(27.5, abs=0.1)
     assert last["share_of_revolutions_above_yield"] == 1.0
     assert last["largest_stress_pa"] == pytest.approx(2e9, rel=1e-3)
-    assert rows[0]["length_dangerous_rad_s"] == rows[0]["share_of_revolutions_above_yield"] == 0.0 and last["status"] == "completed"
+    assert (
+        rows[0]["length_dangerous_rad_s"] == rows[0]["share_of_revolutions_above_yield"] == 0.0
+        and last["status"] == "completed"
+    )
     assert np.isnan(last["max_wear_m"])
 
 
