@@ -43,7 +43,8 @@ def test_found_where_and_how_long(tmp_path):
     what, worst = found.split("; ")
     assert what == "found 4 interactions, 2 of them dangerous (above yield inside the model's limits)"
     assert worst == (
-        "the largest stress 9.50 GPa, 6.88 times yield before the model is left, S50 in abradable at 1686 rad/s (engine order 4)"
+        "the largest stress 9.50 GPa, 6.88 times yield before the model is left, S50 in abradable at 1686 rad/s "
+        "(engine order 4)"
     )
     assert where == f"look at {tmp_path}/explorer.html (any browser), {tmp_path}/summary.csv, {tmp_path}/figures/"
     assert took == "took 13 min 30 s"
