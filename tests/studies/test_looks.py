@@ -189,6 +189,10 @@ def test_a_run_up_has_the_largest_stress_about_each_speed(contact, model, steel,
         away = (revolutions["speed"] - speed).abs()
         about = revolutions[away <= max(2.5, away.min())]["max_von_mises"]
         assert runs["max_von_mises_inside"].sel(speed=speed) == about.max()
+    # all the heat where the run-up is no longer than a run of the sweep, else that of the worst of these
+    (heat,) = {*blade.run_up(*ends, 12.0, speeds)["friction_heat"].values}
+    short = replace(blade, choice=replace(blade.choice, revolutions=4, snapshot_revolutions=4))
+    assert heat > short.run_up(*ends, 12.0, speeds)["friction_heat"].max() > heat / 6.0
     assert runs["used_thickness"].min() == runs["used_thickness"].max() > expected["max_wear"][-1] > 0.0
 
 

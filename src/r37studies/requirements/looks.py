@@ -112,7 +112,7 @@ class JudgedBlade(BladeRuns):
         is_near = distance <= np.maximum(distance.min(axis=1, keepdims=True), 0.5 * CARRIED_STEP)
         is_inside = ~(np.arange(len(numbers["speed"])) + 1 >= exit_revolution)
         values = {
-            f"{name}_inside": np.max(np.where(is_near & is_inside, numbers[name], 0.0), axis=1)
+            f"{name}_inside": np.max(np.where(is_near & is_inside, numbers[name], 0.0 if is_inside.any() else np.nan), axis=1)
             for name in ("max_von_mises", "goodman_share")
             if name in numbers
         }
@@ -125,12 +125,20 @@ class JudgedBlade(BladeRuns):
         return xr.Dataset({name: ("speed", each) for name, each in values.items()}, {"speed": speeds})
 
     def _limited(self, integration: RunUpIntegration, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
-        """Arrays of a run-up that the model's limits are of; the heat of its friction stands in for the power."""
-        totals, quadratic = integration.state.totals, self.model.quadratic
+        """Arrays of a run-up that the model's limits are of.
+
+        The heat of its friction is the most within as many revolutions as a run of the sweep has, which stands in for the
+        power: over many seconds heat flows off.
+        """
+        state, quadratic, count = integration.state, self.model.quadratic, len(numbers["speed"])
+        totals, window = state.totals, min(self.choice.revolutions, count)
+        marks = [(0, 0.0), *((samples, float(each["friction_heat"])) for samples, each in state.marks)]
+        ends = np.arange(count + 1) * self.choice.samples_per_revolution
+        heat = np.interp(ends, *np.transpose([*marks, (state.samples, float(totals["friction_heat"]))]))
         run = {
             "largest_normal_force": totals["largest_force"],
             "bounded_share_of_time": totals["steps_bounded"] / max(totals["steps"], 1.0),
-            "friction_heat": totals["friction_heat"],
+            "friction_heat": np.max(heat[window:] - heat[: len(heat) - window]),
             "melting_power": melting_power(self.model),
         }
         if quadratic is not None:
