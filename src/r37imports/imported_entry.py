@@ -17,11 +17,11 @@ from r37core.config.blade_sections import (
     RegionSection,
     refuse_taken_names,
 )
-from r37core.config.declaring import declared_by, si_form
+from r37core.config.declaring import declared_by, section_of, si, si_form
 from r37core.config.section import ByName, FileName, LeftOut, Name, Section, either, left_out, option, refused
 from r37core.fem.orientation import Orientation
 from r37imports.importing.files import digest_of, matrix_files, mesh_files
-from r37imports.importing.source import MatricesSource, MeshSource, Where
+from r37imports.importing.source import CyclicFaces, MatricesSource, MeshSource, Where
 from r37imports.refusal import ASKED
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
@@ -62,6 +62,8 @@ class SurfaceRule(Section):
 
 SetOrRule: Any = either(FileName, SurfaceRule, rows=Annotated[list[FileName], Field(min_length=1)])
 
+
+CyclicSection: Any = section_of(CyclicFaces, "The mesh is one sector of a disc, whose other sectors are carried.")
 
 _LEAST_METRES, _MOST_METRES = 1e-9, 1e3
 
@@ -121,16 +123,20 @@ class MeshEntry(Oriented):
     tip: SetOrRule = option("Faces towards the casing: a set of the file or a rule")
     contact: Contact = option(CONTACT_IN_WORDS, "patches")
     kinematics: Kinematics = option(KINEMATICS_IN_WORDS, "quadratic")
+    cyclic: CyclicSection | LeftOut = left_out("Disc that the mesh is a sector of; root is then its bore or flange")
     stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
 
     def _check(self) -> None:
         refuse_taken_names(self.stress_regions or ())
         if self.hub_zr_m is not None and self.hub_zr_m[0][0] == self.hub_zr_m[1][0]:
             raise refused("the same z twice", "two points [z, r] of different z", "hub_zr_m")
+        if self.cyclic is not None and self.kinematics != "linear":
+            raise refused(self.kinematics, "linear on a disc (large displacements are not computed there)", "kinematics")
 
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
         ends, digest = {"root": _where(self.root), "tip": _where(self.tip)}, digest_of(mesh_files(self.mesh, root))
+        ends["cyclic"] = None if self.cyclic is None else si(self.cyclic)
         source = si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, **ends)
         if ASKED in (self.root, self.tip):
             # answered before any job, in a dry run too; what reads meshes takes time to load

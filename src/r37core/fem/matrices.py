@@ -23,6 +23,7 @@ from .assembly import (
     stiffness_points,
 )
 from .material import Material
+from .sector import Sector
 from .solver import Solve, factorise
 from .stress import stress_at
 
@@ -107,7 +108,8 @@ class StructuralMatrices:
 def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
     """Assemble the matrices of a mesh clamped at its root, with the geometric stiffness of the centrifugal stress.
 
-    The static displacement under rotation comes from the elastic stiffness at rest (linear theory).
+    The static displacement under rotation comes from the elastic stiffness at rest (linear theory); of a sector of a disc it
+    is that of the disc.
     """
     blocks, points = mesh.blocks, mesh.points
     pattern = NodePattern.build(blocks, len(points))
@@ -120,7 +122,10 @@ def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
         centrifugal_load=centrifugal_load(blocks, points, material.density),
         free_nodes=mesh.free_nodes,
     )
-    displacement = matrices.displaced_by(matrices.centrifugal_load)
+    if mesh.cyclic is None:
+        displacement = matrices.displaced_by(matrices.centrifugal_load)
+    else:
+        displacement = matrices.whole(Sector.of(mesh).displaced(matrices.stiffness(), matrices.free_load))
     # in place: the factors of the stiffness, a third of the work of a reduction, are kept for it
     matrices.geometric_pairs[:] = assemble_geometric_stiffness(pattern, blocks, points, material, displacement)
     return matrices

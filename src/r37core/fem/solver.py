@@ -20,7 +20,7 @@ _ROOM_BYTES = 400
 
 
 def factorise(matrix: sp.sparray) -> Solve:
-    """Factorise a symmetric positive definite matrix once; the returned function solves for one or more right sides.
+    """Factorise a symmetric or Hermitian positive definite matrix once; the returned function solves for one or more right sides.
 
     SuperLU in symmetric mode with minimum-degree ordering of A^T + A. On this project's meshes (thin, almost
     two-dimensional) it is within a factor of two of CHOLMOD, without its licence and platform limits. MemoryError without room.
@@ -52,10 +52,11 @@ def lowest_modes(
     size = stiffness.shape[0]
     if count == 0:
         return np.empty(0), np.empty((size, 0))
-    inverse = sla.LinearOperator((size, size), matvec=solve or factorise(stiffness), dtype=float)
+    inverse = sla.LinearOperator((size, size), matvec=solve or factorise(stiffness), dtype=stiffness.dtype)
     start = np.random.default_rng(37).standard_normal(size)
     eigenvalues, modes = sla.eigsh(stiffness, count, M=mass, sigma=0.0, OPinv=inverse, v0=start, tol=_TOLERANCE)
     order = np.argsort(eigenvalues)
     eigenvalues, modes = eigenvalues[order], modes[:, order]
     largest = np.abs(modes).argmax(axis=0)
-    return eigenvalues, modes * np.sign(modes[largest, np.arange(count)])
+    tops = modes[largest, np.arange(count)]
+    return eigenvalues, modes * np.conj(tops / np.abs(tops))

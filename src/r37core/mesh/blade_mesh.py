@@ -19,7 +19,8 @@ class BladeMesh:
     (elements, nodes of the type); `parameters`: (chord, span, thickness) of each node, shape (nodes, 3), chord 0 (leading)
     to 1 (trailing edge), span 0 (root) to 1 (tip), thickness -1 (pressure) to 1 (suction side); `normals`: unit vector from
     the pressure to the suction side at each node, shape (nodes, 3); `node_sets`: node numbers of each name in NODE_SETS,
-    those of TIP_LINES from the leading to the trailing edge.
+    those of TIP_LINES from the leading to the trailing edge. `cyclic`, shape (pairs, 2), of a sector of a disc alone: each node
+    of its low face, and the node of its high face that it becomes by a turn of one sector about z.
     """
 
     points: np.ndarray
@@ -27,6 +28,7 @@ class BladeMesh:
     parameters: np.ndarray
     normals: np.ndarray
     node_sets: Mapping[str, np.ndarray]
+    cyclic: np.ndarray | None = None
 
     def node_set(self, name: str) -> np.ndarray:
         """Node numbers of a set, lines of the tip from leading to trailing edge; KeyError for a name not in NODE_SETS."""

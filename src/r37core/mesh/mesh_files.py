@@ -11,6 +11,8 @@ from r37core.base.io import atomic_write, readable
 from .blade_mesh import NODE_SETS, BladeMesh, along_chord
 
 _PARAMETERS = ("chord", "span", "thickness")
+_PARTNER = "cyclic_partner"
+"""Data of the nodes of a sector's low face: the node of the high face that each becomes, -1 elsewhere."""
 _CELL_TYPES = {
     "tetra10": pyvista.CellType.QUADRATIC_TETRA,
     "wedge15": pyvista.CellType.QUADRATIC_WEDGE,
@@ -47,6 +49,10 @@ def write_vtu(mesh: BladeMesh, file: Path | str, scaled_jacobian: np.ndarray) ->
     grid.point_data["normal"] = mesh.normals
     for name in NODE_SETS:
         grid.point_data[name] = mesh.mask(name).astype(np.int8)
+    if mesh.cyclic is not None:
+        partners = np.full(len(mesh.points), -1)
+        partners[mesh.cyclic[:, 0]] = mesh.cyclic[:, 1]
+        grid.point_data[_PARTNER] = partners
     grid.cell_data["scaled_jacobian"] = scaled_jacobian
     grid.field_data["scaled_jacobian_minimum"] = [np.min(scaled_jacobian)]
     grid.field_data["scaled_jacobian_one_percent_quantile"] = [np.quantile(scaled_jacobian, 0.01)]
@@ -60,10 +66,12 @@ def read_vtu(file: Path | str) -> BladeMesh:
         grid = pyvista.read(file)
         parameters = np.stack([grid.point_data[name] for name in _PARAMETERS], axis=1)
         cells = grid.cells_dict
+        partners = grid.point_data[_PARTNER] if _PARTNER in grid.point_data else None
         return BladeMesh(
             np.array(grid.points),
             {name: cells[kind].astype(np.int64) for name, kind in _CELL_TYPES.items() if kind in cells},
             parameters,
             np.array(grid.point_data["normal"]),
             {name: along_chord(np.flatnonzero(grid.point_data[name]), name, parameters[:, 0]) for name in NODE_SETS},
+            None if partners is None else np.stack([np.flatnonzero(partners >= 0), partners[partners >= 0]], axis=1),
         )

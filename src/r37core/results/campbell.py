@@ -14,7 +14,10 @@ import xarray as xr
 
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.contact.casing import approach
+from r37core.fem.sector import aliased
 from r37core.rom.rotation import BucklingError
+
+from .disc_campbell import DISC_AXES, DISC_VARIABLES, Families, disc_families
 
 if TYPE_CHECKING:
     # which imports scipy.linalg
@@ -164,7 +167,8 @@ def campbell_dataset(
     """
     if modes > model.size:
         raise ValueError(f"campbell.modes in config.yaml: found {modes}; allowed: up to {model.size}, the reduced model's size")
-    diagram = campbell_diagram(model, speeds, modes)
+    disc = None if model.disc is None else disc_families(model, np.asarray(speeds, dtype=float), modes, max(modes, _NAMED_AMONG))
+    diagram = campbell_diagram(model, speeds, modes) if disc is None else _at_highest(disc, speeds)
     unstable = np.flatnonzero((diagram.frequencies <= 0.0).any(axis=0))
     if len(unstable):
         raise BucklingError(speeds[unstable[0]])
@@ -172,7 +176,7 @@ def campbell_dataset(
     displacement = np.linspace(-1.0, 1.0, 41) * largest_tangential_displacement
     values = {
         "frequency": diagram.frequencies,
-        "crossing_speed": diagram.crossing_speeds(orders),
+        "crossing_speed": diagram.crossing_speeds(orders) if disc is None else _crossings(model, disc, speeds, orders),
         "dynamic_clearance": dynamic_clearance(model, diagram.shapes[:, 0].T, tip_line, displacement),
         "smallest_mac": diagram.continuity,
         "speed": speeds,
@@ -180,12 +184,43 @@ def campbell_dataset(
         "tangential_displacement": displacement,
     }
     dataset = dataset_of(VARIABLES, values, AXES, {"mode": list(diagram.mode_names)})
+    if disc is not None:
+        numbers = {"nodal_frequency": disc.frequencies, "disc_frequency": disc.every, "blade_likeness": disc.likeness}
+        numbers |= {"sectors": model.disc.sectors, "nodal_diameter": np.arange(disc.frequencies.shape[1]), "speed": speeds}
+        dataset = dataset.assign(dataset_of(DISC_VARIABLES, numbers, DISC_AXES, {"mode": list(disc.names)}).data_vars)
     return dataset.assign_attrs(
         dynamic_clearance_tip_line=tip_line, tip_cone_angle_deg=float(np.degrees(model.tip_lines[tip_line].cone_angle))
     )
 
 
+def _at_highest(disc: Families, speeds: np.ndarray) -> Campbell:
+    """The diagram of the highest nodal diameter, where the disc moves least."""
+    return Campbell(speeds, disc.names, disc.frequencies[:, -1], disc.shapes.T[:, None], disc.continuity)
+
+
+def _crossings(model: ReducedModel, disc: Families, speeds: np.ndarray, orders: np.ndarray) -> np.ndarray:
+    """Speeds (rad/s), shape (modes, orders), at which each mode of the nodal diameter that an order excites crosses it."""
+    assert model.disc is not None
+    excited = [aliased(int(order), int(model.disc.sectors)) for order in orders]
+    return np.array(
+        [
+            [crossing_speed(speeds, family[number], order) for number, order in zip(excited, orders, strict=True)]
+            for family in disc.frequencies
+        ]
+    )
+
+
 def gather_blades(blades: Sequence[str], files: Iterable[Path | str]) -> xr.Dataset:
-    """One dataset with the dimension `blade` from one file per blade; the files' coordinates must agree."""
+    """One dataset with the dimension `blade` from one file per blade; the files' coordinates must agree.
+
+    Nodal diameters are those of all discs; what a blade lacks is NaN.
+    """
     datasets = [read_dataset(file).drop_attrs(deep=False) for file in files]
+    most = max(datasets, key=lambda dataset: dataset.sizes.get("nodal_diameter", 0))
+    if "sectors" in most:
+        absent = xr.full_like(most[list(DISC_VARIABLES)], np.nan)
+        numbers = most["nodal_diameter"]
+        datasets = [
+            data.reindex(nodal_diameter=numbers) if "sectors" in data else data.assign(absent.data_vars) for data in datasets
+        ]
     return xr.concat(datasets, pd.Index(blades, name="blade"), join="exact", combine_attrs="override")

@@ -10,6 +10,7 @@ import xarray as xr
 from r37core.base.peaks import prominent_peaks
 
 from .campbell import crossing_speed
+from .disc_campbell import frequency_at_order
 from .interaction_choice import InteractionChoice
 
 STRONGEST, STRONG = 0.25, 0.1
@@ -24,15 +25,15 @@ def modes_of(name: str) -> tuple[str, ...]:
     return tuple(re.split("[+-]", name))
 
 
-def frequency_named(campbell: xr.Dataset, name: str) -> xr.DataArray:
-    """Frequency (Hz) over speed of a mode or combination (modes_of) in a Campbell diagram."""
-    first, *second = (campbell["frequency"].sel(mode=mode, drop=True) for mode in modes_of(name))
+def frequency_named(campbell: xr.Dataset, name: str, order: int | None = None) -> xr.DataArray:
+    """Frequency (Hz) over speed of a mode or combination (modes_of) in a Campbell diagram; `order`: see frequency_at_order."""
+    first, *second = (frequency_at_order(campbell, mode, order) for mode in modes_of(name))
     return (first + second[0] if "+" in name else abs(first - second[0])) if second else first
 
 
 def crossing_of(campbell: xr.Dataset, name: str, order: int) -> float:
     """Speed (rad/s) at which a blade's mode or combination (modes_of) crosses an engine order; NaN where none is known."""
-    frequency = frequency_named(campbell, name)
+    frequency = frequency_named(campbell, name, order)
     return crossing_speed(frequency["speed"].values, frequency.values, order)
 
 

@@ -8,10 +8,12 @@ import scipy.sparse as sp
 
 from r37core.fem.material import Material
 from r37core.fem.matrices import StructuralMatrices
+from r37core.fem.sector import Sector
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 from .contact_weights import tip_contact
 from .craig_bampton import multi_speed_basis, symmetric
+from .disc_reduction import reduce_disc
 from .linear_blade import LinearBlade
 from .naming import ideal_shapes
 from .recovery_nodes import RecoveryNodes
@@ -37,24 +39,29 @@ def reduce_blade(
     mass = matrices.mass()
     contact = tip_contact(mesh, boundary)
     coordinates = sp.csr_array(sp.kron(contact.weights[:, matrices.free_nodes], sp.eye_array(3)))
-    is_linear = reduction.kinematics == LINEAR
-    blade = LinearBlade(matrices, reduction) if is_linear else RotatingBlade(mesh, matrices, material, reduction)
-    vectors, singular_values = multi_speed_basis(blade.states(), mass, coordinates, reduction, blade.derivatives)
-    rotation_shapes, rotation_stiffening = blade.shapes_of_rotation()
-
+    shapes = {name: matrices.free(shape) for name, shape in ideal_shapes(mesh).items()}
+    if mesh.cyclic is None:
+        is_linear = reduction.kinematics == LINEAR
+        blade = LinearBlade(matrices, reduction) if is_linear else RotatingBlade(mesh, matrices, material, reduction)
+        vectors, singular_values = multi_speed_basis(blade.states(), mass, coordinates, reduction, blade.derivatives)
+        rotation_shapes, rotation_stiffening = blade.shapes_of_rotation()
+        fields = blade.stiffness_terms(vectors) | {"rotation_stiffening": rotation_stiffening}
+        fields["mass"] = symmetric(vectors.T @ (mass @ vectors))
+        squares, modes = la.eigh(fields["stiffness"], fields["mass"])
+    else:
+        vectors, singular_values, rotation_shapes, fields = reduce_disc(
+            Sector.of(mesh), matrices, coordinates, reduction, np.array(list(shapes.values()))
+        )
+        squares, modes = fields["disc"].squared_frequencies[-1], fields["disc"].highest_modes
     whole, rotated = matrices.whole(vectors), matrices.whole(rotation_shapes)
 
     def recovery(nodes: np.ndarray) -> RecoveryNodes:
         return RecoveryNodes(nodes, mesh.points[nodes], whole[nodes], rotated[nodes])
 
-    shapes = {name: matrices.free(shape) for name, shape in ideal_shapes(mesh).items()}
-    mass_times_vectors, stiffness = mass @ vectors, blade.stiffness_terms(vectors)
-    reduced_mass = symmetric(vectors.T @ mass_times_vectors)
-    squares, modes = la.eigh(stiffness["stiffness"], reduced_mass)
+    mass_times_vectors = mass @ vectors
     at_rest = np.sqrt(squares) / (2.0 * np.pi), modes
     return ReducedModel(
-        **stiffness,
-        mass=reduced_mass,
+        **fields,
         contact=boundary.contact,
         contact_nodes=contact.nodes(RecoveryNodes(np.arange(len(mesh.points)), mesh.points, whole, rotated)),
         contact_chord=contact.mean_chord,
@@ -67,6 +74,5 @@ def reduce_blade(
         shape_norms=np.array([np.sqrt(shape @ (mass @ shape)) for shape in shapes.values()]),
         tolerance=reduction.basis_tolerance,
         singular_values=singular_values,
-        rotation_stiffening=rotation_stiffening,
         mesh_nodes=len(mesh.points),
     )

@@ -7,6 +7,7 @@ import scipy.linalg as la
 
 from .contact_model import ContactModel
 from .craig_bampton import symmetric
+from .disc_modes import DiscModes
 from .logarithmic_stiffness import LogarithmicStiffness
 from .quadratic_terms import QuadraticTerms
 from .recovery_nodes import RecoveryNodes, cylinder
@@ -28,7 +29,7 @@ class ReducedModel:
     none of a blade whose load is not known. `quadratic_residual`: share of the Omega^4 term in the reduced stiffness at the
     highest speed. `logarithmic_stiffness`, whose matrices its modes at rest project, and `quadratic`: of a blade about its
     equilibrium under rotation; its `geometric_stiffness` is the mean change up to half of the highest speed. `mesh_nodes`: of
-    the mesh that it is made of, 0 of matrices.
+    the mesh that it is made of, 0 of matrices. `disc`: modes by nodal diameter, of a blade on a disc.
     """
 
     stiffness: np.ndarray
@@ -52,6 +53,7 @@ class ReducedModel:
     logarithmic_stiffness: LogarithmicStiffness | None = None
     quadratic: QuadraticTerms | None = None
     mesh_nodes: int = 0
+    disc: DiscModes | None = None
 
     @property
     def size(self) -> int:

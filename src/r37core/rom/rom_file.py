@@ -11,6 +11,7 @@ from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import readable
 from r37core.base.variable import about
 
+from .disc_modes import DiscModes
 from .logarithmic_stiffness import LogarithmicStiffness
 from .quadratic_terms import QuadraticTerms
 from .recovery_nodes import RecoveryNodes
@@ -31,6 +32,7 @@ _ARRAYS = {
     "singular_values": (("basis_column",), "1", "singular values of the basis columns"),
 }
 _LARGE = tuple(f"large_mode_{number}" for number in range(4))
+_WAVE = ("nodal_diameter", "disc_mode", "disc_column")
 _PARTS: dict[str, tuple[str, type, dict[str, tuple[tuple[str, ...], str, str]]]] = {
     "logarithmic": (
         "logarithmic_stiffness",
@@ -63,6 +65,18 @@ _PARTS: dict[str, tuple[str, type, dict[str, tuple[tuple[str, ...], str, str]]]]
             ),
             "height": ((), "m", "height of the blade"),
             "path_errors": (("path_share",), "m", "error of the tip's path against full finite elements"),
+        },
+    ),
+    "disc": (
+        "disc",
+        DiscModes,
+        {
+            "squared_frequencies": (("nodal_diameter", "disc_mode"), "rad2 s-2", "squared frequencies at rest"),
+            "stiffness_per_square": (("part", *_WAVE), "rad-2", "change of the stiffness per squared speed, real and imaginary"),
+            "likeness": (("part", *_WAVE), "1", "mass product with modes of the highest nodal diameter"),
+            "shape_products": (("part", "shape", "disc_mode"), "kg1/2", "mass product of ideal shapes with these"),
+            "highest_modes": (("column", "disc_mode"), "kg-1/2", "modes of the highest nodal diameter"),
+            "sectors": ((), "1", "number of sectors"),
         },
     ),
 }

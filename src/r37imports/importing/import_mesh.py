@@ -19,6 +19,7 @@ from .fitting_entry import fitting_entry
 from .mesh_checks import checked, without_free_nodes
 from .meshio_reader import quietly, read_med, read_msh, read_nastran, read_with_meshio
 from .raw_mesh import RawMesh
+from .sector_faces import sector_pairs
 from .source import MeshSource
 from .tip import TipLines, check_revolution, check_sense, find_tip_lines
 
@@ -66,7 +67,11 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     edge = sets["tip_pressure_edge"]
     sets["leading_edge"], sets["trailing_edge"] = edge[:1], edge[-1:]
     parameters[root, 1], parameters[tip, 1] = 0.0, 1.0
-    return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
+    if source.cyclic is None:
+        return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
+    with blamed("cyclic", source.file):
+        cyclic = sector_pairs(source.cyclic, raw, root)
+    return BladeMesh(raw.points, raw.blocks, parameters, normals, sets, cyclic), quality
 
 
 _MOST_NAMES = 30

@@ -12,7 +12,7 @@ from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
 from r37core.blade.definition import Definition
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.orientation import Orientation
-from r37imports.refusal import ImportRefused, warn_of
+from r37imports.refusal import ASKED, ImportRefused, warn_of
 
 from .files import matrix_files, mesh_files
 from .raw_mesh import RawMesh
@@ -89,6 +89,15 @@ class Where:
 
 
 @dataclass(frozen=True)
+class CyclicFaces:
+    """The disc that a mesh is one sector of: number of sectors, and the sets of the two faces that are cut."""
+
+    sectors: Annotated[int, Key("Number of equal sectors of the disc", ge=3, le=400)]
+    low: Annotated[str, Key("Set of one cut face; ? finds both")] = ASKED
+    high: Annotated[str, Key("Set of the other cut face")] = ASKED
+
+
+@dataclass(frozen=True)
 class MeshSource(Definition):
     """Where a blade's mesh is and how to read it.
 
@@ -121,6 +130,7 @@ class MeshSource(Definition):
         tuple[tuple[float, float], tuple[float, float]] | None,
         Key("two points [z, r] of the platform's top, where the span begins; left out: at the root", "_m", ge=-100, le=100),
     ] = None
+    cyclic: CyclicFaces | None = None
     sense_check: bool = field(kw_only=True)
     digest: str = ""
 

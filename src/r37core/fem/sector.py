@@ -1,0 +1,107 @@
+"""Cyclic symmetry: the matrices of one sector of a disc for each nodal diameter.
+
+A disc of N equal sectors moves in waves: in nodal diameter n sector j has the displacement Re(u e^{i n j a}), a = 2 pi/N, in
+axes that turn with it. So the high face of a sector moves as its low face, turned by a and multiplied by e^{i n a}: with the
+degrees of freedom q without those of the high face u = (E + e^{i n a} H) q, and a symmetric matrix K of the sector becomes
+
+    K_n = own + e^{i n a} coupling + e^{-i n a} coupling^T,  own = E^T K E + H^T K H,  coupling = E^T K H.
+
+Source: D. L. Thomas, Int. J. Numer. Meth. Eng. 14 (1979) 81-102.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+import scipy.sparse as sp
+
+from r37core.mesh.blade_mesh import BladeMesh
+
+from .solver import factorise
+
+
+def aliased(order: int, sectors: int) -> int:
+    """Nodal diameter of a disc that an engine order excites: the distance to the next multiple of the sectors."""
+    return abs((order + sectors // 2) % sectors - sectors // 2)
+
+
+@dataclass(frozen=True)
+class SectorMatrix:
+    """A matrix of the sector over all nodal diameters; see the module's formula."""
+
+    own: sp.csr_array
+    coupling: sp.csr_array
+
+    def at(self, phase: complex) -> sp.csr_array:
+        """The matrix at e^{i n a} = `phase`: Hermitian, and real at a real phase."""
+        factor = phase if phase.imag else phase.real
+        return sp.csr_array(self.own + factor * self.coupling + np.conj(factor) * self.coupling.T)
+
+
+@dataclass(frozen=True)
+class Sector:
+    """A sector of a disc: its unclamped nodes, shape (nodes,), those of its faces, and how many `sectors` the disc has.
+
+    `pairs`, shape (pairs, 2): a node of the low face and that of the high face which it becomes by a turn of one sector.
+    """
+
+    free_nodes: np.ndarray
+    pairs: np.ndarray
+    sectors: int
+
+    @classmethod
+    def of(cls, mesh: BladeMesh) -> Self:
+        """The sector of a mesh that is one; see `cyclic` of BladeMesh."""
+        assert mesh.cyclic is not None
+        low, high = mesh.points[mesh.cyclic].transpose(1, 0, 2)
+        turned = np.arctan2(low[:, 0] * high[:, 1] - low[:, 1] * high[:, 0], np.sum(low[:, :2] * high[:, :2], axis=1))
+        return cls(mesh.free_nodes, mesh.cyclic, round(2.0 * np.pi / float(np.median(turned))))
+
+    @property
+    def angle(self) -> float:
+        """Angle of a sector (rad)."""
+        return 2.0 * np.pi / self.sectors
+
+    @property
+    def nodal_diameters(self) -> range:
+        """All nodal diameters that the disc has."""
+        return range(self.sectors // 2 + 1)
+
+    def phase(self, nodal_diameter: int) -> complex:
+        """e^{i n a}, real to the bit where it is 1 or -1."""
+        if 2 * nodal_diameter % self.sectors == 0:
+            return complex(1.0 if nodal_diameter == 0 else -1.0)
+        return complex(np.exp(1j * nodal_diameter * self.angle))
+
+    @cached_property
+    def _parts(self) -> tuple[sp.csr_array, sp.csr_array]:
+        """E and H, shape (unclamped dofs, unclamped dofs without the high face)."""
+        free = self.free_nodes
+        low, high = self.pairs[np.isin(self.pairs[:, 1], free)].T
+        kept = np.setdiff1d(free, high)
+        rows = np.searchsorted(free, kept)
+        shape = len(free), len(kept)
+        same = sp.csr_array((np.ones(len(kept)), (rows, np.arange(len(kept)))), shape=shape)
+        places = np.searchsorted(free, high), np.searchsorted(kept, low)
+        turned = sp.csr_array((np.ones(len(high)), places), shape=shape)
+        cosine, sine = np.cos(self.angle), np.sin(self.angle)
+        turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+        return sp.csr_array(sp.kron(same, sp.eye_array(3))), sp.csr_array(sp.kron(turned, turn))
+
+    def matrix(self, free: sp.csr_array) -> SectorMatrix:
+        """The matrix for each nodal diameter, of one over the unclamped degrees of freedom."""
+        same, turned = self._parts
+        own = same.T @ free @ same + turned.T @ free @ turned
+        return SectorMatrix(sp.csr_array(own), sp.csr_array(same.T @ free @ turned))
+
+    def expansion(self, phase: complex) -> sp.csr_array:
+        """E + e^{i n a} H, which gives all unclamped degrees of freedom of the sector."""
+        same, turned = self._parts
+        return sp.csr_array(same + (phase if phase.imag else phase.real) * turned)
+
+
+    def displaced(self, stiffness: sp.csr_array, load: np.ndarray) -> np.ndarray:
+        """Displacement (m) of the unclamped degrees of freedom, shape (dofs,), where all sectors have the same load (N)."""
+        expansion = self.expansion(1.0 + 0.0j)
+        return expansion @ factorise(self.matrix(stiffness).at(1.0 + 0.0j))(expansion.T @ load)

@@ -1,0 +1,93 @@
+"""Campbell diagram of a blade on a disc: frequencies of its families of modes over nodal diameter and speed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import scipy
+import xarray as xr
+
+from r37core.base.dataset_file import SPEED
+from r37core.base.variable import Variable
+from r37core.fem.sector import aliased
+
+if TYPE_CHECKING:
+    # which imports scipy.linalg
+    from r37core.rom.reduced_model import ReducedModel
+
+DISC_VARIABLES = {
+    "nodal_frequency": Variable(
+        ("mode", "nodal_diameter", "speed"), "Hz", "frequency of the mode at each nodal diameter that is most like the blade's"
+    ),
+    "disc_frequency": Variable(("disc_mode", "nodal_diameter", "speed"), "Hz", "lowest frequencies of each nodal diameter"),
+    "blade_likeness": Variable(("mode", "nodal_diameter"), "1", "MAC of that mode with the highest nodal diameter's, at rest"),
+    "sectors": Variable((), "1", "number of sectors of the disc", "f8"),
+}
+
+DISC_AXES = {"nodal_diameter": Variable(("nodal_diameter",), "1", "nodal diameter of the disc", "i8"), "speed": SPEED}
+
+
+class Families(NamedTuple):
+    """Families of modes of a disc: `names`, frequencies (Hz) as in DISC_VARIABLES, and modes of the highest nodal diameter.
+
+    `shapes`, shape (coordinates, modes): these in the reduced model's coordinates; `continuity`, shape (modes,): smallest MAC of
+    the highest nodal diameter between neighbouring speeds.
+    """
+
+    names: tuple[str, ...]
+    frequencies: np.ndarray
+    every: np.ndarray
+    likeness: np.ndarray
+    shapes: np.ndarray
+    continuity: np.ndarray
+
+
+def disc_families(model: ReducedModel, speeds: np.ndarray, count: int, among: int) -> Families:
+    """The `count` lowest families at ascending `speeds` (rad/s), named at the highest nodal diameter, where the disc moves least.
+
+    There 1B, 1T and 2B are the modes, of so many, that are most like the ideal shapes, and the others follow by frequency. At
+    another nodal diameter the modes are assigned by the largest sum of their MAC; over speed each is followed.
+    """
+    disc = model.disc
+    assert disc is not None
+    real, imaginary = disc.shape_products
+    products = np.abs(real + 1j * imaginary)[:, :among] ** 2 / model.shape_norms[:, None] ** 2
+    _, named = scipy.optimize.linear_sum_assignment(-products)
+    order = np.array([*named, *(rank for rank in range(among) if rank not in set(named.tolist()))])[:count]
+    names = (*model.shape_names, *map(str, range(len(named) + 1, count + 1)))[:count]
+    diameters, modes = disc.squared_frequencies.shape
+    reference = np.eye(modes)[:, order]
+    frequencies, every = np.zeros((2, count, diameters, len(speeds)))
+    likeness = np.zeros((count, diameters))
+    for diameter in range(diameters):
+        continuity = np.ones(count)
+        for at, speed in enumerate(speeds):
+            angular, shapes = disc.modes(diameter, speed)
+            if at:
+                assurance = np.abs(shapes.conj().T @ followed) ** 2
+            else:
+                assurance = disc.assurance(diameter, shapes, reference)
+            assurance = assurance[: 2 * among]
+            rows, columns = scipy.optimize.linear_sum_assignment(-assurance)
+            match = rows[np.argsort(columns)]
+            values = assurance[match, np.arange(count)]
+            if at:
+                continuity = np.minimum(continuity, values)
+            else:
+                likeness[:, diameter] = values
+            followed = shapes[:, match]
+            frequencies[:, diameter, at], every[:, diameter, at] = angular[match], angular[:count]
+    return Families(
+        names, frequencies / (2.0 * np.pi), every / (2.0 * np.pi), likeness, disc.highest_modes @ reference, continuity
+    )
+
+
+def frequency_at_order(campbell: xr.Dataset, mode: str, order: int | None) -> xr.DataArray:
+    """Frequency (Hz) over speed of a mode, on a disc at the nodal diameter that the engine order excites.
+
+    Without an order, and of a blade without a disc, the one that all nodal diameters of a stiff disc share.
+    """
+    if order is None or "sectors" not in campbell or not np.isfinite(campbell["sectors"]):
+        return campbell["frequency"].sel(mode=mode, drop=True)
+    return campbell["nodal_frequency"].sel(mode=mode, nodal_diameter=aliased(order, int(campbell["sectors"])), drop=True)
