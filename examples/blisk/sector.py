@@ -38,7 +38,7 @@ def mesh_sector(file: str, sectors: int = SECTORS, copies: int = 1, size: float 
     faces = {"low": -pi / sectors, "high": pi / sectors}
     sets: dict[str, list[int]] = {"bore": [], "tip": [], "low": [], "high": []}
     for _, tag in gmsh.model.getEntities(2):
-        x, y, z = occ.getCenterOfMass(2, tag)
+        x, y, _ = occ.getCenterOfMass(2, tag)
         plane = {name: abs(-x * sin(angle) + y * cos(angle)) < 1e-6 for name, angle in faces.items()}
         normal = gmsh.model.getType(2, tag)
         radius = (x * x + y * y) ** 0.5
@@ -61,10 +61,20 @@ def mesh_sector(file: str, sectors: int = SECTORS, copies: int = 1, size: float 
     gmsh.option.setNumber("Mesh.MeshSizeMax", size)
     field = gmsh.model.mesh.field
     box = field.add("Box")
-    for key, value in {"VIn": 0.5 * size, "VOut": size, "XMin": PLATFORM, "XMax": 1.0, "YMin": -1, "YMax": 1, "ZMin": -1, "ZMax": 1}.items():
+    for key, value in {
+        "VIn": 0.5 * size,
+        "VOut": size,
+        "XMin": PLATFORM,
+        "XMax": 1.0,
+        "YMin": -1,
+        "YMax": 1,
+        "ZMin": -1,
+        "ZMax": 1,
+    }.items():
         field.setNumber(box, key, value)
     field.setAsBackgroundMesh(box)
     gmsh.option.setNumber("Mesh.ElementOrder", 2)
+    gmsh.option.setNumber("Mesh.Binary", 1)
     gmsh.model.mesh.generate(3)
     gmsh.write(file)
     gmsh.finalize()

@@ -136,8 +136,8 @@ class MeshEntry(Oriented):
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
         ends, digest = {"root": _where(self.root), "tip": _where(self.tip)}, digest_of(mesh_files(self.mesh, root))
-        ends["cyclic"] = None if self.cyclic is None else si(self.cyclic)
-        source = si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, **ends)
+        cyclic = None if self.cyclic is None else si(self.cyclic)
+        source = si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, cyclic=cyclic, **ends)
         if ASKED in (self.root, self.tip):
             # answered before any job, in a dry run too; what reads meshes takes time to load
             from r37imports.importing.import_mesh import import_mesh

@@ -26,10 +26,12 @@ SMALLER_CHANGES = (
 class Definition:
     """Definition of a blade, whatever it is given by.
 
-    `stages`: stages of the structure (plans/stages.py) that others stand in place of, or "" where it has none.
+    `stages`: stages of the structure (plans/stages.py) that others stand in place of, or "" where it has none. `cyclic`: the
+    disc that it is a sector of, with its number of `sectors`; None of a blade alone.
     """
 
     stages: ClassVar[Mapping[str, str]] = {}
+    cyclic: Any = None
 
     def files(self, root: Path) -> list[Path]:
         """Files that stages read, of names that start from the folder `root`."""

@@ -148,6 +148,20 @@ def kinematics_can_be_had(settings: Settings) -> None:
         raise document.refusal(f"{value} at {level}", f"{LINEAR} or {ROTATING}, or {_exact_level(settings)}", *key)
 
 
+def discs_carry_one_blade(settings: Settings) -> None:
+    """A sector of a disc has small displacements and one blade in contact, and its matrices are not those of a blade."""
+    wanted = {name: settings.kinematics_of(name) for name, blade in settings.blades.items() if blade.definition.cyclic}
+    for name, kinematics in wanted.items():
+        if kinematics != LINEAR:
+            value = f"{kinematics} with the blade '{name}', on a disc (cyclic)"
+            raise settings.document.refusal(value, f"{LINEAR}, or the blade without cyclic", "structure", "kinematics")
+    for name, chosen in settings.scenes.items():
+        if wanted and chosen.scene.rotor is not None:
+            value = f"a rotor with the blade '{next(iter(wanted))}', on a disc (cyclic): blades are not coupled through it"
+            allowed = "one blade in contact, or the blade without cyclic"
+            raise settings.scene_designs.document.refusal(value, allowed, name, "rotor")
+
+
 def tips_have_room_for_patches(settings: Settings) -> None:
     """Patches are no finer than the tip's mesh, as far as it is known before it is made."""
     mesh, document = settings.fidelity.mesh, settings.document
@@ -207,6 +221,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     slowest_speeds_can_be_run,
     matrices_hold_their_terms,
     kinematics_can_be_had,
+    discs_carry_one_blade,
     tips_have_room_for_patches,
     rotors_can_be_run,
     clearances_reach_all_speeds,

@@ -100,7 +100,6 @@ class Sector:
         same, turned = self._parts
         return sp.csr_array(same + (phase if phase.imag else phase.real) * turned)
 
-
     def displaced(self, stiffness: sp.csr_array, load: np.ndarray) -> np.ndarray:
         """Displacement (m) of the unclamped degrees of freedom, shape (dofs,), where all sectors have the same load (N)."""
         expansion = self.expansion(1.0 + 0.0j)

@@ -20,7 +20,7 @@ _ROOM_BYTES = 400
 
 
 def factorise(matrix: sp.sparray) -> Solve:
-    """Factorise a symmetric or Hermitian positive definite matrix once; the returned function solves for one or more right sides.
+    """Factorise a symmetric or Hermitian positive definite matrix; the returned function solves for one or more right sides.
 
     SuperLU in symmetric mode with minimum-degree ordering of A^T + A. On this project's meshes (thin, almost
     two-dimensional) it is within a factor of two of CHOLMOD, without its licence and platform limits. MemoryError without room.

@@ -43,6 +43,20 @@ FIGURES = (
         arguments=lambda sweep: {"casings": to_plain(elastic_casings(sweep.settings))},
     ),
     Figure(
+        rule="interference_figure",
+        name="interference_{blade}",
+        runs=lambda sweep: of(
+            "blade", [name for name in sweep.drawn["blade"] if sweep.settings.blades[name].definition.cyclic]
+        ),
+        draw="r37core.figures.interference.draw_interference",
+        files={"campbell": CAMPBELL},
+        label="interference",
+        caption="Interference diagram of blade {blade} on its disc: frequencies over nodal diameter at rest (open) and at the "
+        "highest speed (filled), 1B, 1T and 2B in the colours of all figures, all others grey. Engine orders at the "
+        "highest speed rise and fall with their aliasing: the line's point at a nodal diameter is the order that excites it.",
+        over_speed=False,
+    ),
+    Figure(
         rule="interactions_figure",
         name="interactions",
         draw="r37core.figures.interaction_map.draw_interactions",

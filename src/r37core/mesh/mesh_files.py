@@ -66,7 +66,7 @@ def read_vtu(file: Path | str) -> BladeMesh:
         grid = pyvista.read(file)
         parameters = np.stack([grid.point_data[name] for name in _PARAMETERS], axis=1)
         cells = grid.cells_dict
-        partners = grid.point_data[_PARTNER] if _PARTNER in grid.point_data else None
+        partners = grid.point_data.get(_PARTNER)
         return BladeMesh(
             np.array(grid.points),
             {name: cells[kind].astype(np.int64) for name, kind in _CELL_TYPES.items() if kind in cells},

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -167,7 +167,9 @@ def campbell_dataset(
     """
     if modes > model.size:
         raise ValueError(f"campbell.modes in config.yaml: found {modes}; allowed: up to {model.size}, the reduced model's size")
-    disc = None if model.disc is None else disc_families(model, np.asarray(speeds, dtype=float), modes, max(modes, _NAMED_AMONG))
+    disc = (
+        None if model.disc is None else disc_families(model, np.asarray(speeds, dtype=float), modes, max(modes, _NAMED_AMONG))
+    )
     diagram = campbell_diagram(model, speeds, modes) if disc is None else _at_highest(disc, speeds)
     unstable = np.flatnonzero((diagram.frequencies <= 0.0).any(axis=0))
     if len(unstable):
@@ -184,8 +186,9 @@ def campbell_dataset(
         "tangential_displacement": displacement,
     }
     dataset = dataset_of(VARIABLES, values, AXES, {"mode": list(diagram.mode_names)})
-    if disc is not None:
-        numbers = {"nodal_frequency": disc.frequencies, "disc_frequency": disc.every, "blade_likeness": disc.likeness}
+    if disc is not None and model.disc is not None:
+        numbers: dict[str, Any] = {"nodal_frequency": disc.frequencies, "disc_frequency": disc.every}
+        numbers["blade_likeness"] = disc.likeness
         numbers |= {"sectors": model.disc.sectors, "nodal_diameter": np.arange(disc.frequencies.shape[1]), "speed": speeds}
         dataset = dataset.assign(dataset_of(DISC_VARIABLES, numbers, DISC_AXES, {"mode": list(disc.names)}).data_vars)
     return dataset.assign_attrs(

@@ -31,8 +31,8 @@ DISC_AXES = {"nodal_diameter": Variable(("nodal_diameter",), "1", "nodal diamete
 class Families(NamedTuple):
     """Families of modes of a disc: `names`, frequencies (Hz) as in DISC_VARIABLES, and modes of the highest nodal diameter.
 
-    `shapes`, shape (coordinates, modes): these in the reduced model's coordinates; `continuity`, shape (modes,): smallest MAC of
-    the highest nodal diameter between neighbouring speeds.
+    `shapes`, shape (coordinates, modes): these in the reduced model's coordinates; `continuity`, shape (modes,): smallest MAC
+    of the highest nodal diameter between neighbouring speeds.
     """
 
     names: tuple[str, ...]
@@ -44,7 +44,7 @@ class Families(NamedTuple):
 
 
 def disc_families(model: ReducedModel, speeds: np.ndarray, count: int, among: int) -> Families:
-    """The `count` lowest families at ascending `speeds` (rad/s), named at the highest nodal diameter, where the disc moves least.
+    """The `count` lowest families at ascending `speeds` (rad/s), named at the highest nodal diameter (the disc moves least).
 
     There 1B, 1T and 2B are the modes, of so many, that are most like the ideal shapes, and the others follow by frequency. At
     another nodal diameter the modes are assigned by the largest sum of their MAC; over speed each is followed.
@@ -61,15 +61,11 @@ def disc_families(model: ReducedModel, speeds: np.ndarray, count: int, among: in
     frequencies, every = np.zeros((2, count, diameters, len(speeds)))
     likeness = np.zeros((count, diameters))
     for diameter in range(diameters):
-        continuity = np.ones(count)
+        continuity, followed = np.ones(count), np.empty(0)
         for at, speed in enumerate(speeds):
             angular, shapes = disc.modes(diameter, speed)
-            if at:
-                assurance = np.abs(shapes.conj().T @ followed) ** 2
-            else:
-                assurance = disc.assurance(diameter, shapes, reference)
-            assurance = assurance[: 2 * among]
-            rows, columns = scipy.optimize.linear_sum_assignment(-assurance)
+            assurance = np.abs(shapes.conj().T @ followed) ** 2 if at else disc.assurance(diameter, shapes, reference)
+            rows, columns = scipy.optimize.linear_sum_assignment(-assurance[: 2 * among])
             match = rows[np.argsort(columns)]
             values = assurance[match, np.arange(count)]
             if at:

@@ -19,13 +19,16 @@ from r37core.fem.matrices import StructuralMatrices
 from r37core.fem.sector import Sector
 from r37core.fem.solver import factorise, lowest_modes
 
-from .craig_bampton import combine_columns, projected, symmetric
+from .craig_bampton import combine_columns, symmetric
 from .disc_modes import DiscModes
 from .reduction_choice import LINEAR, ReductionChoice
 from .rotation import shapes_of_rotation
 
 _INDEPENDENT = 1e-12
 """Eigenvalue of the scaled mass of a nodal diameter's columns below which they depend on each other."""
+
+_CHANGED = 1e-3
+"""Part of a mode, as its norm, that is another at another speed: less counts for nothing, as its square in a frequency."""
 
 
 class DiscReduction(NamedTuple):
@@ -85,9 +88,7 @@ def reduce_disc(
     return DiscReduction(moved @ basis, singular, rotation_shapes, fields)
 
 
-def _wave(
-    terms: list[sp.csr_array], expansion: sp.csr_array, contact: sp.csr_array, reduction: ReductionChoice
-) -> _Wave:
+def _wave(terms: list[sp.csr_array], expansion: sp.csr_array, contact: sp.csr_array, reduction: ReductionChoice) -> _Wave:
     """Modes of one nodal diameter from its stiffness, mass and change of the stiffness per squared speed."""
     stiffness, mass, per_square = terms
     solve = factorise(stiffness)
@@ -104,9 +105,13 @@ def _wave(
 
 
 def _kept(wave: _Wave, reduction: ReductionChoice) -> np.ndarray:
-    """The lowest modes at half of the highest speed, in the modes at rest."""
-    speed = 0.5 * max(reduction.speeds)
-    return la.eigh(np.diag(wave.squares) + speed**2 * wave.per_square)[1][:, : reduction.fixed_interface_modes]
+    """The lowest modes at the speeds of the basis, in the modes at rest, without what they have in common."""
+    at_speeds = [
+        la.eigh(np.diag(wave.squares) + speed**2 * wave.per_square)[1][:, : reduction.fixed_interface_modes]
+        for speed in reduction.speeds
+    ]
+    left, singular_values, _ = la.svd(np.hstack(at_speeds), full_matrices=False)
+    return left[:, singular_values > _CHANGED]
 
 
 def _parts(wave: _Wave) -> int:
@@ -138,9 +143,7 @@ def _rotation(
     return expansion @ shapes, stiffening
 
 
-def _disc_modes(
-    waves: list[_Wave], mass: sp.csr_array, ideal: np.ndarray, highest: np.ndarray, sectors: int
-) -> DiscModes:
+def _disc_modes(waves: list[_Wave], mass: sp.csr_array, ideal: np.ndarray, highest: np.ndarray, sectors: int) -> DiscModes:
     """The waves as a reduced model keeps them, all with as many modes as the one with the fewest."""
     count = min(len(wave.squares) for wave in waves)
     units = [

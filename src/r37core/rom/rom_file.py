@@ -72,7 +72,11 @@ _PARTS: dict[str, tuple[str, type, dict[str, tuple[tuple[str, ...], str, str]]]]
         DiscModes,
         {
             "squared_frequencies": (("nodal_diameter", "disc_mode"), "rad2 s-2", "squared frequencies at rest"),
-            "stiffness_per_square": (("part", *_WAVE), "rad-2", "change of the stiffness per squared speed, real and imaginary"),
+            "stiffness_per_square": (
+                ("part", *_WAVE),
+                "rad-2",
+                "change of the stiffness per squared speed, real and imaginary",
+            ),
             "likeness": (("part", *_WAVE), "1", "mass product with modes of the highest nodal diameter"),
             "shape_products": (("part", "shape", "disc_mode"), "kg1/2", "mass product of ideal shapes with these"),
             "highest_modes": (("column", "disc_mode"), "kg-1/2", "modes of the highest nodal diameter"),

@@ -33,7 +33,7 @@ def sector_pairs(cyclic: CyclicFaces, mesh: RawMesh, root: np.ndarray) -> np.nda
         found = forth[0] <= _SAME * size
         if found.sum() < 3:
             raise ImportRefused(
-                f"cyclic: turned by {360.0 / cyclic.sectors:g} degrees no face of the mesh lies on another, node on node (nearest "
+                f"cyclic: turned by {360.0 / cyclic.sectors:g} degrees no face of the mesh lies on another (nearest "
                 f"{1e3 * forth[0].min():.3g} mm; allowed: {1e3 * _SAME * size:.2g} mm); check sectors, or {_REMEDY}",
                 "cyclic",
             )
@@ -44,7 +44,7 @@ def sector_pairs(cyclic: CyclicFaces, mesh: RawMesh, root: np.ndarray) -> np.nda
         if len(low) != len(high) or distance.max() > _SAME * size:
             raise ImportRefused(
                 f"cyclic: the faces '{cyclic.low}' ({len(first)} nodes) and '{cyclic.high}' ({len(second)} nodes), turned by "
-                f"{360.0 / cyclic.sectors:g} degrees, do not match node on node (largest distance {1e3 * distance.max():.3g} mm; "
+                f"{360.0 / cyclic.sectors:g} degrees, do not match (largest distance {1e3 * distance.max():.3g} mm; "
                 f"allowed: {1e3 * _SAME * size:.2g} mm); check sectors, or {_REMEDY}",
                 "cyclic",
             )

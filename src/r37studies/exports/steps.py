@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from r37core.base.io import JOB_LOG, as_list
+from r37core.base.io import JOB_LOG, InputFileError, as_list
 from r37core.base.plain import from_plain
 from r37core.blade.geometry_file import read_geometry
 from r37core.fem.abaqus_deck import write_abaqus
@@ -60,7 +60,10 @@ def matrices(input: Any, output: Any, params: Any) -> None:
     """Write matrices. Inputs: rom, and mesh for full ones. Params: choice, tip_line, material. Output: folder (of .mtx)."""
     model, speeds, folder = read_reduced_model(input.rom), params.choice["matrix_speeds"], Path(output.folder)
     if hasattr(input, "mesh"):
-        full = assemble(read_vtu(input.mesh), from_plain(Material, params.material))
+        mesh = read_vtu(input.mesh)
+        if mesh.cyclic is not None:
+            raise InputFileError(f"{input.mesh}: found a sector of a disc (cyclic); allowed: exports.full_matrices: false")
+        full = assemble(mesh, from_plain(Material, params.material))
         write_full_matrices(full, model, params.tip_line, speeds, folder)
     else:
         write_reduced_matrices(model, speeds, folder)
