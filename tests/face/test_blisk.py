@@ -1,6 +1,7 @@
 """The example of a blisk runs, at a small level, and energies balance."""
 
 import pytest
+
 import r37
 
 
