@@ -1,33 +1,13 @@
 """Sectors of discs that tests share, and the whole disc as one mesh."""
 
-import runpy
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
 from box_mesh import box_mesh
 from scipy.spatial import cKDTree
 
-from r37core.fem.orientation import Orientation
 from r37core.mesh.blade_mesh import BladeMesh
-from r37imports.importing.import_mesh import import_mesh
-from r37imports.importing.source import CyclicFaces, MeshSource, Where
-
-EXAMPLE = Path(__file__).parents[1] / "examples/blisk"
-AXES = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
-BLISK = MeshSource("sector.msh", AXES, Where(("bore",)), Where(("tip",)), hub_zr=((-0.1, 0.17), (0.1, 0.17)), sense_check=False)
-
-
-def mesh_sector(file, sectors, size=0.014):
-    """Write the mesh of the example's sector, coarse."""
-    runpy.run_path(str(EXAMPLE / "sector.py"))["mesh_sector"](str(file), sectors, size)
-
-
-def blisk(folder, sectors, **cyclic):
-    """The example's sector as it is imported."""
-    mesh_sector(folder / "sector.msh", sectors)
-    return import_mesh(replace(BLISK, cyclic=CyclicFaces(sectors, **cyclic)), folder)[0]
 
 
 def plate_sector(inner, outer, thickness, sectors, counts):

@@ -1,17 +1,19 @@
 """A mesh that is one sector of a disc: its faces, nodal diameters, and a rub of one blade on it."""
 
+import runpy
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from box_mesh import TITANIUM
 from defaults import BoundaryChoice, Casing, IntegrationChoice
-from discs import BLISK, blisk, mesh_sector
 from import_defaults import refused
 from integration_cases import ABRADABLE, DIRECT
 from integration_runs import whole_run
 
 from r37core.fem.matrices import assemble
+from r37core.fem.orientation import Orientation
 from r37core.mesh.mesh_files import read_vtu, write_vtu
 from r37core.results.campbell import campbell_dataset, gather_blades
 from r37core.results.spectral_lines import crossing_of
@@ -20,8 +22,24 @@ from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import ReductionChoice
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37imports.importing.import_mesh import import_mesh
-from r37imports.importing.source import CyclicFaces, Where
+from r37imports.importing.source import CyclicFaces, MeshSource, Where
 from r37imports.refusal import ImportRefused
+
+EXAMPLE = Path(__file__).parents[2] / "examples/blisk"
+AXES = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
+BLISK = MeshSource("sector.msh", AXES, Where(("bore",)), Where(("tip",)), hub_zr=((-0.1, 0.17), (0.1, 0.17)), sense_check=False)
+
+
+def mesh_sector(file, sectors, size=0.014):
+    """Write the mesh of the example's sector, coarse."""
+    runpy.run_path(str(EXAMPLE / "sector.py"))["mesh_sector"](str(file), sectors, size)
+
+
+def blisk(folder, sectors, **cyclic):
+    """The example's sector as it is imported."""
+    mesh_sector(folder / "sector.msh", sectors)
+    return import_mesh(replace(BLISK, cyclic=CyclicFaces(sectors, **cyclic)), folder)[0]
+
 
 SECTORS = 12
 BOUNDARY, REDUCTION = BoundaryChoice(nodes=4), ReductionChoice((0.0, 750.0, 1500.0), 6)

@@ -60,15 +60,10 @@ class ReducedModel:
         """Number of reduced coordinates."""
         return self.mass.shape[0]
 
-    @property
-    def stiffness_per_square(self) -> np.ndarray:
-        """Change of the stiffness per squared speed: K1, with spin softening if the model has it."""
-        return self.geometric_stiffness + (0.0 if self.spin_softening is None else self.spin_softening)
-
     def stiffness_at(self, speed: float) -> np.ndarray:
         """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1, or that about the equilibrium there."""
         if self.logarithmic_stiffness is None:
-            return self.stiffness + speed**2 * self.stiffness_per_square
+            return self.stiffness + speed**2 * change_per_square(self)
         squares, modes_at_rest = la.eigh(self.stiffness, self.mass)
         squares, modes = self.logarithmic_stiffness.projected(modes_at_rest).spectrum(squares, speed)
         shapes = self.mass @ (modes_at_rest @ modes)
@@ -85,6 +80,11 @@ class ReducedModel:
         return frequencies[:count], shapes[:, :count]
 
 
+def change_per_square(model: ReducedModel) -> np.ndarray:
+    """Change of the stiffness per squared speed (N/m per rad2/s2): K1, with spin softening if the model has it."""
+    return model.geometric_stiffness + (0.0 if model.spin_softening is None else model.spin_softening)
+
+
 def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
     """The contact model of a reduced model whose contact nodes lie on `tip_line`."""
     frequencies, modes = model.modes(0.0)
@@ -93,7 +93,7 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
     ends = line.select([0, -1])
     return ContactModel(
         squared_frequencies=frequencies**2,
-        stiffness_per_square=symmetric(modes.T @ model.stiffness_per_square @ modes),
+        stiffness_per_square=symmetric(modes.T @ change_per_square(model) @ modes),
         logarithmic_stiffness=None if logarithmic is None else logarithmic.projected(modes),
         quadratic=None if quadratic is None else quadratic.projected(modes),
         **_node_fields(nodes, modes),

@@ -30,14 +30,14 @@ def sector_pairs(cyclic: CyclicFaces, mesh: RawMesh, root: np.ndarray) -> np.nda
     turned = points @ _turn(2.0 * np.pi / cyclic.sectors).T
     forth, back = (cKDTree(points[there]).query(turned[here]) for here, there in ((first, second), (second, first)))
     if asked:
-        found = forth[0] <= _SAME * size
-        if found.sum() < 3:
+        matched = forth[0] <= _SAME * size
+        if matched.sum() < 3:
             raise ImportRefused(
                 f"cyclic: turned by {360.0 / cyclic.sectors:g} degrees no face of the mesh lies on another (nearest "
                 f"{1e3 * forth[0].min():.3g} mm; allowed: {1e3 * _SAME * size:.2g} mm); check sectors, or {_REMEDY}",
                 "cyclic",
             )
-        pairs = np.stack([first[found], second[forth[1][found]]], axis=1)
+        pairs = np.stack([first[matched], second[forth[1][matched]]], axis=1)
     else:
         flipped = back[0].max() < forth[0].max()
         low, high, (distance, nearest) = (second, first, back) if flipped else (first, second, forth)
