@@ -78,10 +78,6 @@ def test_a_grid_has_every_value_with_every_other(with_blades):
     assert settings.blades["Grid_-2p5_8000"].definition.chordwise_sweep_angle == pytest.approx(np.radians(-2.5))
 
 
-def test_pairs_go_side_by_side(with_blades):
-    assert list(with_blades(GRID + "  combine: pairs\n", blades=["Grid"]).blades) == ["Grid_-2p5_8000", "Grid_5_4500"]
-
-
 def test_a_table_has_one_design_a_row(with_blades):
     table = "blade,chordwise_sweep_deg,material.density_kg_m3\nForward,5,8000\nBack-1,-5,7.5e3\n"
     settings = with_blades("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])

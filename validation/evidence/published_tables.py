@@ -18,25 +18,12 @@ from .published_windows import CHOICES
 from .tables import write_table
 
 GROUPS = {
-    "shape: areas, volume": r"^(area|volume)",
-    "Campbell speeds of 1B": r": Campbell$",
-    "dynamic clearance of 1B and 1T": r"dynamic clearance",
-    "speeds of the largest rms with lining": r"1B/\d: peak$",
-    "drop after them, lobes of the wear there": r"1B/\d: (drop|lobes)",
-    "Ref with lining: stress, width, wear": r"^Ref lined(?!, 750|: response)|^Ref 1B/4: width",
-    "Ref in direct contact, and both scenes": r"^direct|^at \d+: ",
-    "other blades against Ref at their peaks": r"at its peak: |^stress at the peak|^variants at their peaks",
-    "whole range of speeds": r"750 to 2000|torsion|^CS100 has",
-}
-"""Kinds of published numbers -> pattern of their names."""
-
-SUMMED = {
     "shape, Campbell speeds": r"^(area|volume)|: Campbell$",
     "statements on dynamic clearance": r"dynamic clearance",
     "interactions: speed, drop, wear lobes": r"1B/\d: (peak$|drop|lobes)",
     "stress, wear, bare casing, other blades": r"^(?!area|volume|.*dynamic clearance|.*1B/\d: (Campbell|peak|drop|lobes))",
 }
-"""The same in the few rows of a page."""
+"""Kinds of published numbers -> pattern of their names."""
 
 UNPUBLISHED = "apart: slopes of an unpublished prototype"
 """Row of what is no published number."""
@@ -59,8 +46,7 @@ def checks(input: Any, output: Any, params: Any) -> None:
         levels.append(structure + window_checks(runs) + survey_checks(survey, runs))
     write_table(*checks_table(*levels), output.validation_checks)
     write_table(*differences(*levels), output.validation_differences)
-    write_table(*counts(GROUPS, *levels), output.validation_kinds)
-    write_table(*counts(SUMMED, *levels), output.published_summary)
+    write_table(*counts(*levels), output.published_summary)
 
 
 def by_error(several: Iterable[Check]) -> list[Check]:
@@ -91,9 +77,9 @@ def differences(ours: Sequence[Check], standard: Sequence[Check]) -> Table:
     return ["what", "published", "ours", "error", "ours at standard"], rows
 
 
-def counts(groups: Mapping[str, str], ours: Sequence[Check], standard: Sequence[Check]) -> Table:
+def counts(ours: Sequence[Check], standard: Sequence[Check]) -> Table:
     """How many numbers of each kind agree at the published step and at `standard`, and the largest error of those that do."""
-    levels, patterns = (ours, standard), {**groups, "all": ""}
+    levels, patterns = (ours, standard), {**GROUPS, "all": ""}
     several = {name: [_of_kind(checks, pattern) for checks in levels] for name, pattern in patterns.items()}
     several[UNPUBLISHED] = [[check for check in checks if PROTOTYPE in check.name] for checks in levels]
     rows = [[name, score(chosen), _largest_error(chosen), score(other)] for name, (chosen, other) in several.items()]

@@ -10,7 +10,7 @@ from evidence.checks import Check, claim, score
 from evidence.configuration import settings_of
 from evidence.gallery import draw_reference, draw_stress
 from evidence.published_checks import Runs, survey_checks, torsion_speed, window_checks
-from evidence.published_tables import GROUPS, SUMMED, checks_table, choices_table, counts, differences
+from evidence.published_tables import checks_table, choices_table, counts, differences
 from evidence.published_windows import BARE
 from plan.published import PAPER, PUBLISHED
 from published import INTERACTIONS
@@ -131,16 +131,15 @@ def test_checks_that_differ_come_first_and_the_prototype_last():
 
 
 def test_every_published_number_is_of_one_kind():
-    """Counts of the kinds add up to all, in both tables of counts; slopes of the prototype stand apart."""
+    """Counts of the kinds add up to all; slopes of the prototype stand apart."""
     checks = [*window_checks(published_runs()), Check("volume of the blade", 1.0, 1.0), Check("Ref 1B/4: Campbell", 1.0, 1.0)]
     checks += [Check("S50: slope of 1B's dynamic clearance (prototype)", 1.0, 1.0)]
     checks += [claim("1B's dynamic clearance of S50 and S100: significantly smaller than Ref's", True)]
     surveys = {name: survey_of({}, 1e-5) for name in ("Ref_lined", "Ref_direct", "CS100_lined")}
     checks += survey_checks(surveys, published_runs())
-    for groups in (GROUPS, SUMMED):
-        *parts, whole, apart = [int(row[1].split(" of ")[1]) for row in counts(groups, checks, checks)[1]]
-        assert (sum(parts), apart) == (whole, 1)
-        assert whole == len(checks) - 1
+    *parts, whole, apart = [int(row[1].split(" of ")[1]) for row in counts(checks, checks)[1]]
+    assert (sum(parts), apart) == (whole, 1)
+    assert whole == len(checks) - 1
 
 
 def test_table_of_choices_marks_what_is_missing():

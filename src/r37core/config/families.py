@@ -110,14 +110,7 @@ def _family(name: str, entry: Any, root: Path, document: Document) -> Family:
         _check_size(designs, name, "designs", document)
         return designs
     values = {key: way.values() if isinstance(way, Variation) else list(map(float, way)) for key, way in entry.vary.items()}
-    if entry.combine == "pairs":
-        lengths = {key: len(several) for key, several in values.items()}
-        if len(set(lengths.values())) > 1:
-            counted = ", ".join(f"{key} {length}" for key, length in lengths.items())
-            raise document.refusal(f"{counted} values", "as many of each key, with combine: pairs", name, "vary")
-        rows = list(zip(*values.values(), strict=True))
-    else:
-        rows = list(product(*values.values()))
+    rows = list(product(*values.values()))
     _check_size(rows, name, "vary", document)
     designs = {design_name(name, row): dict(zip(values, row, strict=True)) for row in rows}
     if len(designs) < len(rows):

@@ -1,7 +1,7 @@
-"""Keys that make one entry a family of designs: `vary`, `combine` and `designs`, of blades and of scenes."""
+"""Keys that make one entry a family of designs: `vary` and `designs`, of blades and of scenes."""
 
 import math
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
@@ -33,21 +33,17 @@ class Variation(Section):
 
 
 Varied: Any = either(Variation, rows=Unique[float])
-FAMILY_WAYS = ("vary", "designs")
-FAMILY_KEYS = (*FAMILY_WAYS, "combine")
-"""Keys of a family, of which it has one of FAMILY_WAYS."""
+FAMILY_KEYS = ("vary", "designs")
+"""Keys of a family, of which it has one."""
 
 
 class FamilyKeys(Section):
     """Keys that make an entry a family: many blades or scenes that differ in some numbers."""
 
-    refuse_several: ClassVar[tuple[tuple[str, ...], ...]] = (FAMILY_WAYS,)
+    refuse_several: ClassVar[tuple[tuple[str, ...], ...]] = (FAMILY_KEYS,)
 
     vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = left_out(
-        "Family: values of numeric keys, such as sweep_percent of a blade or casing.clearance_m of a scene"
-    )
-    combine: Literal["grid", "pairs"] = option(
-        "grid combines every value with every other, pairs the first with the first", "grid"
+        "Family: values of numeric keys, such as sweep_percent of a blade or casing.clearance_m of a scene, each with each"
     )
     designs: FileName | LeftOut = left_out(
         "Family as a table (CSV): a design per row, its name in the column `blade` or `scene`, then numeric keys"
@@ -56,4 +52,4 @@ class FamilyKeys(Section):
 
 def is_family(entry: Any) -> bool:
     """True if an entry is a family."""
-    return any(getattr(entry, key, None) is not None for key in FAMILY_WAYS)
+    return any(getattr(entry, key, None) is not None for key in FAMILY_KEYS)
