@@ -1,8 +1,7 @@
 """A measurement's file (CSV): what its columns are, by their units, and the points that they give."""
 
 import re
-from collections.abc import Iterator, Mapping, Set
-from contextlib import contextmanager
+from collections.abc import Mapping, Set
 from dataclasses import replace
 from math import pi
 from pathlib import Path
@@ -17,16 +16,7 @@ from r37studies.measured.csv_cells import read_cells
 
 from .points import STRAIN, TIP_TIMING, VALUES, WORN_DEPTH, Points, feature_speed
 from .section import ASKED, PHASOR, MeasurementError, MeasurementSection
-from .time_signals import (
-    MOST_SPEEDS,
-    OrderAmplitudes,
-    SignalError,
-    order_amplitudes,
-    passages,
-    spectrum_amplitudes,
-    sweep_legs,
-    turned,
-)
+from .time_signals import MOST_SPEEDS, OrderAmplitudes, order_amplitudes, passages, spectrum_amplitudes, sweep_legs, turned
 
 _LARGEST = 1e30
 _HERTZ = 2.0 * pi
@@ -135,10 +125,8 @@ def _points(
     count = len(numbers["value"])
     if is_spectrum:
         assert constant_speed is not None
-        with _blamed():
-            return _of_orders(
-                spectrum_amplitudes(numbers[_SPEED], numbers["value"], constant_speed, entry.engine_order), numbers, entry
-            ), ()
+        lines = spectrum_amplitudes(numbers[_SPEED], numbers["value"], constant_speed, entry.engine_order)
+        return _of_orders(lines, numbers, entry), ()
     if _TIME in numbers:
         order = np.argsort(numbers[_TIME], kind="stable")
         numbers = {name: part[order] for name, part in numbers.items()}
@@ -147,8 +135,7 @@ def _points(
     if PHASOR in numbers:
         if _TIME not in numbers:
             raise MeasurementError("columns", f"found a {PHASOR} and no column of times; allowed: both")
-        with _blamed():
-            marks = passages(numbers[_TIME], numbers[PHASOR])
+        marks = passages(numbers[_TIME], numbers[PHASOR])
         inside = (numbers[_TIME] >= marks[0]) & (numbers[_TIME] <= marks[-1])
         numbers = {name: part[inside] for name, part in numbers.items()}
         numbers[_TURNS] = np.interp(numbers[_TIME], marks, np.arange(len(marks)))
@@ -280,8 +267,7 @@ def _signal(turns: np.ndarray, numbers: Mapping[str, np.ndarray], entry: Measure
     """Amplitudes of the engine orders of a time signal; while the speed changes, of each speed."""
     if entry.quantity in (WORN_DEPTH, TIP_TIMING):
         raise MeasurementError("file", f"found a time signal; allowed for {entry.quantity}: speeds or angles")
-    with _blamed():
-        tracked = order_amplitudes(turns, numbers[_SPEED], numbers["value"], entry.engine_order)
+    tracked = order_amplitudes(turns, numbers[_SPEED], numbers["value"], entry.engine_order)
     return _of_orders(tracked, numbers, entry)
 
 
@@ -293,11 +279,3 @@ def _of_orders(tracked: OrderAmplitudes, numbers: Mapping[str, np.ndarray], entr
         amplitudes["sigma"] = np.repeat(deviation, len(tracked.orders))
     speeds, orders = (part.ravel() for part in np.meshgrid(tracked.speeds, tracked.orders, indexing="ij"))
     return Points.collected(speeds, amplitudes["value"], _deviations(amplitudes, entry), orders, remark=tracked.remark)
-
-
-@contextmanager
-def _blamed() -> Iterator[None]:
-    try:
-        yield
-    except SignalError as error:
-        raise MeasurementError("file", str(error)) from None

@@ -24,7 +24,7 @@ UNTOLD = 0.8
 TOGETHER = 0.7
 """Correlation from which on measurements identify two numbers together and not each."""
 
-_AT_END = 0.02
+_AT_END, _WIDE = 0.02, 0.5
 _DAMPING = VariedNumber(SCENE, "damping_ratio")
 
 
@@ -99,9 +99,9 @@ def notes(dataset: xr.Dataset, name: str) -> list[str]:
 
 
 def is_range(dataset: xr.Dataset, number: VariedNumber) -> bool:
-    """True of a damping ratio that the measurements do not tell: scenes have its range, and members nothing of it."""
+    """True of a damping ratio that the measurements hardly tell: scenes have its range, and members nothing of it."""
     others = dataset.sizes["number"] > 1
-    return number == _DAMPING and others and bool(dataset["width_share"].sel(number=number.name) > UNTOLD)
+    return number == _DAMPING and others and bool(dataset["width_share"].sel(number=number.name) > _WIDE)
 
 
 def calibrated_scenes(settings: Settings, dataset: xr.Dataset, scenes: Sequence[str]) -> str:

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .section import MeasurementError
+
 LARGEST_ORDER = 24
 """Largest engine order that is fitted."""
 
@@ -18,10 +20,6 @@ _LEAST_SHARE = 0.1
 """Least share of the largest amplitude that counts."""
 
 _LEAST_COHERENCE, _LONGEST = 0.5, 1e7
-
-
-class SignalError(ValueError):
-    """A signal that tells no engine orders; the message says why and what would help."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,15 +40,16 @@ def turned(times: np.ndarray, speeds: np.ndarray) -> np.ndarray:
 
 
 def passages(times: np.ndarray, pulses: np.ndarray) -> np.ndarray:
-    """Times (s) at which a key phasor's pulses rise through the middle of their range. Raises SignalError for uneven ones."""
+    """Times (s) at which a key phasor's pulses rise through their middle. Raises MeasurementError for uneven ones."""
     middle = 0.5 * (pulses.min() + pulses.max())
     rises = np.flatnonzero((pulses[:-1] < middle) & (pulses[1:] >= middle))
     shares = (middle - pulses[rises]) / (pulses[rises + 1] - pulses[rises])
     rising_times = times[rises] + shares * (times[rises + 1] - times[rises])
     periods = np.diff(rising_times)
     if len(periods) < 2 or periods.min() < 0.5 * np.median(periods) or periods.max() > 1.5 * np.median(periods):
-        raise SignalError(
-            f"found {len(rising_times)} passages of a key phasor; allowed: three or more, evenly, one pulse a revolution"
+        raise MeasurementError(
+            "file",
+            f"found {len(rising_times)} passages of a key phasor; allowed: three or more, evenly, one pulse a revolution",
         )
     return rising_times
 
@@ -59,15 +58,19 @@ def order_amplitudes(turns: np.ndarray, speeds: np.ndarray, values: np.ndarray, 
     """Amplitudes of the engine orders that stand out, or of the `wanted` one; of each speed while that changes.
 
     `turns`: revolutions since the start; `speeds` (rad/s), shape (samples,). Parts of a few revolutions are fitted by least
-    squares and their squares averaged: an angle that is a little wrong takes nothing from them. Raises SignalError for fewer
-    than two revolutions, an order above half of the samples of one, and phases that drift: no engine order, or a wrong speed.
+    squares and their squares averaged: an angle that is a little wrong takes nothing from them. Raises MeasurementError for
+    fewer than two revolutions, an order above half of the samples of one, and drifting phases: no order, or a wrong speed.
     """
     total = float(turns[-1] - turns[0])
     if not 2.0 <= total < _LONGEST:
-        raise SignalError(f"found a time signal of {total:.3g} revolutions; allowed: 2 or more, in the units of the header")
+        raise MeasurementError(
+            "file", f"found a time signal of {total:.3g} revolutions; allowed: 2 or more, in the units of the header"
+        )
     highest = min(LARGEST_ORDER, int(0.5 / np.median(np.diff(turns))))
     if not (wanted or 1) <= highest:
-        raise SignalError(f"found order {wanted or 1}; allowed: up to {highest}, half of the samples of a revolution")
+        raise MeasurementError(
+            "file", f"found order {wanted or 1}; allowed: up to {highest}, half of the samples of a revolution"
+        )
     count = max(int(total / _PART), 1)
     parts = np.minimum(((turns - turns[0]) / total * count).astype(int), count - 1)
     fits = [_fitted(turns[parts == part], values[parts == part], highest) for part in range(count)]
@@ -89,9 +92,10 @@ def order_amplitudes(turns: np.ndarray, speeds: np.ndarray, values: np.ndarray, 
     coherence = float(np.median(alike))
     if coherence < _LEAST_COHERENCE and count > 1:
         turn = np.angle(np.sum(strongest[1:] * strongest[:-1].conj())) * count / (2.0 * np.pi * total * main)
-        raise SignalError(
+        raise MeasurementError(
+            "file",
             f"found phases of engine order {main} that drift (coherence {coherence:.2f}) as if the speed were {1.0 + turn:.5g} "
-            "times as large; allowed: that speed, a column of speed or a key phasor, and a motion of engine orders"
+            "times as large; allowed: that speed, a column of speed or a key phasor, and a motion of engine orders",
         )
     explained = max(1.0 - float(rest.mean() / max(np.var(values), 1e-300)), 0.0)
     remark = f"engine orders explain {explained:.0%} of the signal, coherence {coherence:.2f}"
@@ -110,8 +114,9 @@ def spectrum_amplitudes(
     largest = max(lines.values(), default=0.0)
     kept = [order for order, value in lines.items() if (order == wanted if wanted else value >= _LEAST_SHARE * largest)]
     if not kept:
-        raise SignalError(
-            f"found no line near {f'order {wanted}' if wanted else 'an engine order'} of {speed:.5g} rad/s; allowed: some"
+        raise MeasurementError(
+            "file",
+            f"found no line near {f'order {wanted}' if wanted else 'an engine order'} of {speed:.5g} rad/s; allowed: some",
         )
     remark = (
         "" if values.max() <= largest else f"the highest line, of order {ratios[values.argmax()]:.3g}, is of no engine order"
