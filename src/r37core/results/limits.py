@@ -31,11 +31,11 @@ _LIMITS: dict[str, tuple[str | float, str]] = {
     ),
     "friction_power": (
         "melting_power",
-        "friction takes up to {:.3g} W over 20 revolutions; from {:.3g} W on its share of the tip melts it in 1 s",
+        "friction takes up to {:.3g} W over 20 revolutions; from {:.3g} W on the tenth that enters the tip melts it in 1 s",
     ),
     "friction_heat": (
         "melting_power",
-        "friction makes up to {:.3g} J of heat; from {:.3g} J on its share of the tip has melted it, if none flows off",
+        "friction makes up to {:.3g} J of heat; from {:.3g} J on the tenth that enters the tip melts it, if none flows off",
     ),
 }
 """Variable of the runs -> its limit, with displacements of second order, or the variable that has it; the reason in words."""
@@ -103,7 +103,7 @@ def first_revolutions_beyond(run: Mapping[str, np.ndarray]) -> dict[Cause, float
     """First revolution beyond each limit, by cause; infinite where there is none. `run`: arrays of its file.
 
     Energy that is unaccounted for is so from the first revolution on, and so is what is not known revolution by revolution. A
-    mean power begins with its first revolution.
+    mean power is known with its last revolution.
     """
     firsts = dict.fromkeys(list(Cause)[1:], np.inf)
     for name, cause in CAUSES.items():
@@ -121,8 +121,8 @@ def first_revolutions_beyond(run: Mapping[str, np.ndarray]) -> dict[Cause, float
 
 
 def _first_hot_revolution(heat: np.ndarray, most: float) -> float:
-    """First revolution of the first HEATED ones that make more than `most` heat (J) a revolution."""
+    """Last revolution of the first HEATED ones that make more than `most` heat (J) a revolution."""
     made = np.concatenate([[0.0], heat[np.isfinite(heat)]])
     window = max(min(HEATED, len(made) - 1), 1)
     hot = made[window:] - made[:-window] >= window * most
-    return float(hot.argmax()) + 1.0
+    return float(hot.argmax() + window)
