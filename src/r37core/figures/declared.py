@@ -61,6 +61,7 @@ FIGURES = (
         name="interactions",
         draw="r37core.figures.interaction_map.draw_interactions",
         files={"campbell": ALL_CAMPBELL, "rms": RMS, "interactions": "<results>/summary.csv", "stress": _stress},
+        offered=("further_runs",),
         label="interactions",
         caption="Which interactions are dangerous? A Campbell diagram of each scene: engine orders (grey, with their numbers), "
         "and 1B, 1T and 2B, bands over several blades; dashed: other modes, and combinations of two, that interactions on a "

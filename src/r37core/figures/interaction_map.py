@@ -17,6 +17,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 from r37core.results.closing import interaction_title
+from r37core.results.datasets import with_further_runs
 from r37core.results.events import Danger
 from r37core.results.interactions import sized
 from r37core.results.measures import ran
@@ -61,14 +62,18 @@ _OTHERS = "0.45"
 
 
 def draw_interactions(
-    campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.DataFrame, stress: xr.Dataset | None = None
+    campbell: xr.Dataset,
+    rms: xr.Dataset,
+    interactions: pd.DataFrame,
+    stress: xr.Dataset | None = None,
+    further_runs: xr.Dataset | None = None,
 ) -> Figure:
     """Draw a panel for each scene, at most six: those with the longest dangerous ranges; below it danger_rows of the blades.
 
     `interactions`: summary.csv; `rms`: which speeds were run. A circle stands at the peak speed and at the frequency of its
     engine order there, without one on a strip below. Its area is the length of the dangerous speeds or, in a scene without
     stress, the motion; other marks are unknown or below yield. Lines: dangerous and sustained speeds. Of more than _MOST_ROWS
-    blades the title has in place of rows how many runs are unknown.
+    blades the title has in place of rows how many runs leave the model. `further_runs`: of a verdict, for the rows.
     """
     rows = sized(interactions, rms)
     lengths = rows[rows["unit"] == "rad/s"].groupby("scene")["size"].max()
@@ -89,7 +94,9 @@ def draw_interactions(
     colours = {blade: look["color"] if owner[look["color"]] == blade else _OTHERS for blade, look in looks.items()}
     speeds = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
     margin = max(0.03 * (speeds[-1] - speeds[0]), 0.01 * speeds[-1])
-    whole = rms if stress is None else xr.merge([rms, stress], join="left", compat="override")
+    kinds = {"rms": rms} if stress is None else {"rms": rms, "stress": stress}
+    parts = [with_further_runs(kind, dataset, further_runs) for kind, dataset in kinds.items()]
+    whole = xr.merge(parts, join="left", compat="override")
     drawn = rms["blade"].values.tolist() if rms.sizes["blade"] <= _MOST_ROWS else []
     highest = np.nanmin([1.3 * float(campbell["frequency"].sel(mode="2B").max()), 1.15 * rows["frequency"].max()])
     strip = -_STRIP * highest if rows["frequency"].isna().any() else 0.0
