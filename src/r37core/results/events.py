@@ -18,7 +18,7 @@ _REGION = ("region",)
 
 
 class Danger(Outcome):
-    """What the revolutions of a run say of a limit of its stress."""
+    """Danger of a speed: whether a limit of the stress is passed inside the model."""
 
     BELOW = 0
     UNKNOWN = 1
