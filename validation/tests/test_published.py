@@ -26,7 +26,7 @@ def branch(peak, order=4, normal=4e-3, tangential=19e-3, low=None, high=None):
     stress = np.where((speed > peak - 17) & (speed <= peak), 2.0 * YIELD, 0.0)
     values = {name: np.zeros(len(speed)) for name in UNITS}
     values |= {"rms_normal": normal * level, "rms_tangential": tangential * level, "max_von_mises_last_revolution": stress}
-    values |= {"max_wear": 5e-3 * level, "casing_hits": level}
+    values |= {"max_wear": 5e-3 * level, "casing_hits": level, "exit_revolution": np.full(len(speed), np.nan)}
     run = xr.Dataset({name: ("speed", value) for name, value in values.items()}, coords={"speed": speed})
     run = run.assign_coords(tip_point=["leading_edge", "trailing_edge"], lobes=np.arange(21))
     return run.assign(yield_stress=YIELD, **with_lobes(run, order), **touching_from(run, 8))
