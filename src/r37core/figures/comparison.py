@@ -125,7 +125,7 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     if len(contacts) == 1 and contacts[0]:
         nodes, _, kinematics = contacts[0].partition(", ")
         figure.suptitle(f"contact: {nodes}; kinematics: {kinematics or LINEAR}")
-    style.legend_below(figure, panels.flat, 4)
+    style.legend_below(figure, panels.flat, 2)
     return figure
 
 
