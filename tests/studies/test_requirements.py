@@ -84,7 +84,7 @@ def stressed(stress):
 def left_at(runs, *speeds):
     """The response with runs that leave the model in their third revolution, by a force, at these speeds."""
     left = np.isin(SPEEDS, speeds)
-    limits = {"largest_normal_force": np.where(left, 900.0, 90.0), "peak_share_of_height": np.where(left, 0.01, 0.01)}
+    limits = {"largest_normal_force": np.where(left, 9000.0, 90.0), "peak_share_of_height": np.where(left, 0.01, 0.01)}
     limits["exit_revolution"] = np.where(left, 3.0, np.nan)
     return runs.assign({name: ("speed", values) for name, values in limits.items()})
 
@@ -197,6 +197,7 @@ CASES = [
     case("what leaves the model first is not known", ABOVE, left_at(QUIET, 1100.0, 1105.0)),
     case("yield before the exit is danger", ABOVE, left_at(LOUD, *SPEEDS)),
     case("danger at some speeds, an exit at others", ABOVE, left_at(LOUD, 1150.0)),
+    case("an exit by a limit that no number tells", ABOVE, response(exit_revolution=at(1100.0, 3.0, np.nan))),
     case("an exit outside of operation", ABOVE, left_at(QUIET, 1020.0)),
     case("the model is left below the Goodman line", GOODMAN, left_at(TIRED.assign(yield_stress=1.0), 1120.0)),
     case("a length across the end", ABOVE, response(above(1020.0, 1080.0))),

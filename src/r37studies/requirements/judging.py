@@ -298,7 +298,9 @@ def _left_out(only: Requirements, evidence: Evidence, note: str) -> list[str]:
         evidence.point_contact and ON_POINTS,
         np.isnan(evidence.error) and NOT_MEASURED,
     )
-    return reasons + [text for text in doubts if text and evidence.touches] + beyond_model(evidence)
+    left = np.isfinite(evidence.response.get("exit_revolution", np.nan)) & evidence.operates
+    beyond = beyond_model(evidence) or ["the model is left"] * bool(left.any())
+    return reasons + [text for text in doubts if text and evidence.touches] + beyond
 
 
 def _trials(evidence: Evidence) -> list[Trial]:
