@@ -53,7 +53,7 @@ def effect(input: Any, output: Any, params: Any) -> None:
 
 
 def _cell(response: xr.Dataset, speeds: list[float]) -> str:
-    """Speeds above yield in most revolutions, median of the stress over yield, and runs that diverge, which are above yield."""
+    """Speeds above yield in most later revolutions, median of the stress over yield, and how many further runs diverge."""
     at_speeds = response.sel(speed=speeds)
     ratio = ratio_to_yield(at_speeds, "max_von_mises_median")
     diverged = int((at_speeds["status"] == RunStatus.DIVERGED).sum())
