@@ -276,5 +276,7 @@ def _text(row: dict[str, Any], *, named: bool) -> str:
     amount = f"{row['size']:.0f}" if row["size"] >= 10.0 else f"{row['size']:.2g}"
     amount = f"{'> ' * row['onward']}{amount} {row['unit']}"
     if row["danger"] == _UNKNOWN:
-        amount = f"unknown after {row['largest_stress_over_yield']:.2g} x yield"
+        # a run that leaves the model in its first revolution has no stress inside
+        inside = row["largest_stress_over_yield"]
+        amount = f"{_UNKNOWN} after {inside:.2g} x yield" if inside > 0.0 else _UNKNOWN
     return f"{name}, {amount}" if name else amount
