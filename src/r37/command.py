@@ -51,8 +51,20 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
+_FIRST = """First, write a study and run it; what a run has found stands in results/:
+  r37 init study && cd study && r37 check config/config.yaml
+  snakemake all_blades --cores 2 --config fidelity=draft
+With requirements in config/config.yaml, snakemake verdict says of each blade: meets, fails or cannot tell."""
+"""What `r37 --help` ends with."""
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="r37", description="blade-tip rubbing in a compressor")
+    parser = argparse.ArgumentParser(
+        prog="r37",
+        description="blade-tip rubbing in a compressor",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=_FIRST,
+    )
     parser.add_argument("--version", action="version", version=f"r37 {r37.__version__}", help="print the version and end")
     commands = parser.add_subparsers(required=True, metavar="command")
     diagram = commands.add_parser("campbell", help="natural frequencies and crossings of a blade")
@@ -64,7 +76,7 @@ def _parser() -> argparse.ArgumentParser:
     check = commands.add_parser("check", help="validate a configuration, and count its simulations")
     check.set_defaults(run=_check)
     check.add_argument("config", nargs="*", help="a config.yaml and files of changes on top; without any the shipped one")
-    folder = commands.add_parser("init", help="write a folder for a study of one's own: configuration, Snakefile, profile")
+    folder = commands.add_parser("init", help="write a folder for a study of one's own: configuration, Snakefile, profiles")
     folder.set_defaults(run=_init)
     folder.add_argument("folder", help="new or empty")
     return parser

@@ -56,6 +56,6 @@ def init(folder: Path | str) -> Path:
 
 def add_workflow(folder: Path) -> None:
     """Write what Snakemake needs beside a configuration: Snakefile and profile, and what Git leaves out."""
-    shutil.copytree(_PACKAGE / "profiles" / "default", folder / "profiles" / "default", dirs_exist_ok=True)
+    shutil.copytree(_PACKAGE / "profiles", folder / "profiles", dirs_exist_ok=True)
     shutil.copyfile(_PACKAGE / "study.smk", folder / "Snakefile")
     (folder / ".gitignore").write_text("/results/\n/logs/\n/.snakemake/\n")

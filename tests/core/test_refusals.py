@@ -1,5 +1,6 @@
 """Configurations that cannot be meant: each ends in one message with file, line and key."""
 
+import os
 import re
 from pathlib import Path
 from typing import Any
@@ -188,6 +189,18 @@ def test_tables_as_spreadsheets_write_them(config_copy, name):
     text = file.read_text()
     file.write_bytes(b"\xef\xbb\xbf" + text.replace(",", ", ").replace("\n", " \r\n").encode())
     assert read_settings(config_copy).blades == before
+    for separator in ";\t":
+        european = text.replace(",", separator).replace(".", ",")
+        file.write_text("Rotor 37, of a spreadsheet\n# 2 tables\n\n" + european, encoding="utf-8")
+        assert read_settings(config_copy).blades == before
+
+
+def test_a_pipe_is_refused_and_not_waited_for(config_copy):
+    file = config_copy / TABLES[0]
+    file.unlink()
+    os.mkfifo(file)
+    with pytest.raises(ConfigError, match=r"found a device or pipe"):
+        read_settings(config_copy)
 
 
 @pytest.mark.parametrize("name", TABLES)
@@ -195,7 +208,7 @@ def test_tables_as_spreadsheets_write_them(config_copy, name):
     ("change", "message"),
     [
         (lambda text: text.replace("\n", "\n<<<<<<< HEAD\n", 1), "2: the row has more or fewer cells"),
-        (lambda text: text.replace(",", ";"), "1: the table lacks the columns .* separated by commas"),
+        (lambda text: text.replace(",", "|"), "1: the table lacks the columns .* separated by comma, semicolon or tab"),
         (lambda text: text.replace("\n", ",7\n").replace(",7\n", "\n", 1), "2: the row has more or fewer cells"),
         (lambda text: "", "1: the table lacks the columns"),
     ],

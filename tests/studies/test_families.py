@@ -94,7 +94,7 @@ def test_a_table_has_one_design_a_row(with_blades):
     ("table", "message"),
     [
         ("blade,chordwise_sweep_deg\nA,x\n", r"csv: family Mine: line 2, column chordwise_sweep_deg: 'x' is not"),
-        (f"blade,chordwise_sweep_deg\nA,{'1' * 131_073}\n", r"csv: family Mine: line 1: not readable as a table"),
+        (f"blade,chordwise_sweep_deg\nA,{'1' * 131_073}\n", r"csv: family Mine: line 2: not readable as a table"),
         ("blade,chordwise_sweep_deg\nA,1\nA,2\n", r"designs\.csv: family Mine: the blade 'A' is given twice"),
         ("chordwise_sweep_deg\n1\n", r"family Mine: line 1: the table lacks the columns blade"),
         ("blade,chordwise_sweep_deg\n" + "".join(f"A{n},1\n" for n in range(10_001)), "Mine.*: found 10001 designs"),

@@ -167,8 +167,12 @@ def as_list(files: str | Sequence[str]) -> list[str]:
 def read_text(file: Path) -> str:
     """Text of a UTF-8 file, with or without a byte order mark.
 
-    Raises TextFileError for another encoding or more than 64 MB, as devices have, and OSError as `open` does.
+    Raises TextFileError for another encoding, more than 64 MB, a device or pipe, and OSError as `open` does.
     """
+    path = Path(file)
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        # reading would wait for a pipe, and never end for a device
+        raise TextFileError(1, "found a device or pipe; allowed: a regular text file")
     with open(file, "rb") as stream:
         data = stream.read(2**26 + 1)
     if len(data) > 2**26:

@@ -1,7 +1,5 @@
 """Profile and stacking tables: reading them, and checking them before any work starts."""
 
-import csv
-import io
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -12,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.io import read_text
+from r37core.base.table_text import TableTextError, table_rows
 from r37core.base.units import si_name
 
 from .profile import BladeShapeError, ProfileParameters
@@ -44,7 +43,7 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
     Raises BladeShapeError for missing columns, unreadable numbers, spans out of order or not reaching 0 and 100%,
     impossible rows and profiles that cross; TextFileError for a file that is no UTF-8 text.
     """
-    rows = _rows(read_text(file), tuple(PROFILE_COLUMNS))
+    rows = number_rows(read_text(file), tuple(PROFILE_COLUMNS))
     profiles = [ProfileParameters(**{name: _si_cell(row, column) for column, name in PROFILE_COLUMNS.items()}) for row in rows]
     if len(profiles) > 1 and profiles[0].span > profiles[-1].span:
         profiles.reverse()
@@ -59,7 +58,7 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
 
 def stacking_table_rows(file: Path, blade: str) -> list[dict[str, float]]:
     """Rows of one blade, by STACKING_COLUMNS, from a sweep and lean CSV with a column `blade`; BladeShapeError without any."""
-    rows = [row for row in _rows(read_text(file), STACKING_COLUMNS, ("blade",)) if row["blade"] == blade]
+    rows = [row for row in number_rows(read_text(file), STACKING_COLUMNS, ("blade",)) if row["blade"] == blade]
     if not rows:
         raise BladeShapeError(f"no row of the table has '{blade}' in its column 'blade'")
     return [{column: float(row[column]) for column in STACKING_COLUMNS} for row in rows]
@@ -71,7 +70,7 @@ def read_designs(file: Path, kind: str) -> dict[str, dict[str, float]]:
     `kind`: column of the names, blade or scene. Raises BladeShapeError for missing columns, unreadable numbers and a name given
     twice; TextFileError as for others.
     """
-    rows = _rows(read_text(file), None, (kind,))
+    rows = number_rows(read_text(file), None, (kind,))
     if not rows or len(rows[0]) < 2:
         raise BladeShapeError(
             f"the table has no designs; it needs the column {kind}, one more for each key, and a row for each {kind}"
@@ -136,34 +135,42 @@ def check_profile_order(profiles: Sequence[ProfileParameters]) -> None:
 
 
 @lru_cache(maxsize=16)
-def _rows(text: str, number_columns: tuple[str, ...] | None, text_columns: tuple[str, ...] = ()) -> tuple[dict, ...]:
-    """Rows by column; without `number_columns` all but the texts are numbers. Read once for all designs of a family."""
-    reader = csv.DictReader(io.StringIO(text, newline=""), strict=True)
+def number_rows(
+    text: str, number_columns: tuple[str, ...] | None = None, text_columns: tuple[str, ...] = ()
+) -> tuple[dict, ...]:
+    """Rows by column; without `number_columns` all but the texts are numbers. Read once for all designs of a family.
+
+    Raises BladeShapeError for missing columns, columns given twice and cells that are no finite numbers.
+    """
     try:
-        reader.fieldnames = header = [column.strip() for column in reader.fieldnames or []]
+        rows = table_rows(text)
+        line, header = next(rows, (1, []))
         if number_columns is None:
             number_columns = tuple(column for column in header if column not in text_columns)
         wanted = [*text_columns, *number_columns]
         missing = [column for column in wanted if column not in header]
         if missing:
             raise BladeShapeError(
-                f"line 1: the table lacks the columns {', '.join(missing)}; it has {', '.join(header) or 'none'}, "
-                "separated by commas"
+                f"line {line}: the table lacks the columns {', '.join(missing)}; it has {', '.join(header) or 'none'}, "
+                "separated by comma, semicolon or tab"
             )
         twice = [column for column in wanted if header.count(column) > 1]
         if twice:
-            raise BladeShapeError(f"line 1: the column {twice[0]} is given twice")
-        return tuple(_row(raw, reader.line_num, number_columns, text_columns) for raw in reader)
-    except csv.Error as error:
-        raise BladeShapeError(f"line {reader.line_num}: not readable as a table separated by commas: {error}") from None
+            raise BladeShapeError(f"line {line}: the column {twice[0]} is given twice")
+        return tuple(_row(header, cells, line, number_columns, text_columns) for line, cells in rows)
+    except TableTextError as error:
+        raise BladeShapeError(str(error)) from None
 
 
-def _row(raw: dict, line: int, number_columns: Iterable[str], text_columns: Iterable[str]) -> dict:
-    if None in raw or None in raw.values():
-        raise BladeShapeError(f"line {line}: the row has more or fewer cells than the first line has columns")
-    row: dict = {column: raw[column].strip() for column in text_columns}
+def _row(
+    header: Sequence[str], cells: Sequence[str], line: int, number_columns: Iterable[str], text_columns: Iterable[str]
+) -> dict:
+    if len(cells) != len(header):
+        raise BladeShapeError(f"line {line}: the row has more or fewer cells than the header has columns")
+    raw = dict(zip(header, cells, strict=True))
+    row: dict = {column: raw[column] for column in text_columns}
     for column in number_columns:
-        text = raw[column].strip()
+        text = raw[column]
         if not _NUMBER.fullmatch(text):
             raise BladeShapeError(f"line {line}, column {column}: '{text}' is not a number")
         row[column] = float(text)

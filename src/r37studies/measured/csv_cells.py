@@ -1,11 +1,12 @@
 """Cells of a CSV file that a configuration or a call names."""
 
-import io
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from r37core.base.io import TextFileError, read_text
+from r37core.base.table_text import TableTextError, table_rows
 from r37core.config.document import ConfigError
 from r37core.config.messages import single_line
 
@@ -16,14 +17,18 @@ def read_cells(file: Path) -> pd.DataFrame:
     Raises ConfigError, without the file's name.
     """
     try:
-        text = read_text(file)
-        header = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
-        separator = max(",;\t", key=header.count)
-        cells = pd.read_csv(io.StringIO(text), sep=separator, comment="#", dtype=str, skipinitialspace=True)
-    except (OSError, TextFileError, ValueError) as error:
-        # those of pandas are ValueErrors
+        rows = [cells for _, cells in table_rows(read_text(file))]
+    except (OSError, TextFileError, TableTextError) as error:
         reason = single_line(getattr(error, "strerror", None) or str(error).strip())
         raise ConfigError(f"{reason}; allowed: a CSV with a header, and rows of as many cells") from None
-    if not isinstance(cells.index, pd.RangeIndex):
+    if not rows:
+        raise ConfigError("found no header; allowed: a CSV with a header, and rows of as many cells")
+    # spreadsheets end each line with separators of empty columns
+    header, rows = rows[0], [row[: len(rows[0])] if not any(row[len(rows[0]) :]) else row for row in rows[1:]]
+    if any(len(row) > len(header) for row in rows):
         raise ConfigError("found rows with more cells than the header; allowed: as many, and decimal points")
-    return cells.rename(columns=str.strip)
+    if twice := [title for title in header if title and header.count(title) > 1]:
+        raise ConfigError(f"found the column '{twice[0]}' twice; allowed: each title once")
+    padded = [row + [""] * (len(header) - len(row)) for row in rows]
+    cells = pd.DataFrame(padded, columns=header, dtype=str).replace("", np.nan)
+    return cells.loc[:, [bool(title) for title in header]]

@@ -1,14 +1,16 @@
 """tolerances of config.yaml, and members of a sample: blades and scenes with other values of some numbers, run by one job."""
 
-import csv
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
+from r37core.base.io import TextFileError, read_text
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import VariedNumber
 from r37core.blade.definition import Shape
+from r37core.blade.profile import BladeShapeError
+from r37core.blade.profile_tables import number_rows
 from r37core.config import BladeSettings, ConfigError, Settings, blades_named, scenes_named, varied_settings
 from r37core.config.changed_numbers import ImpossibleValueError, changed_pair, check_known, nominal_value, scene_numbers
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
@@ -67,9 +69,8 @@ class Tolerances:
         if self._entry.spreads:
             raise self._refusal(path, "distributions beside it", "one of them")
         try:
-            with open(file, newline="", encoding="utf-8") as stream:
-                rows = [{str(name): float(value) for name, value in row.items()} for row in csv.DictReader(stream)]
-        except (OSError, ValueError, TypeError) as error:
+            rows = number_rows(read_text(file))
+        except (OSError, TextFileError, BladeShapeError) as error:
             raise self._error(path, f"{file}: {error}; allowed: a CSV with a number in each field") from None
         if len(rows) < members:
             raise self._refusal(path, f"{len(rows)} rows in {file}", f"{members} or more, one for each member")

@@ -1,0 +1,61 @@
+"""Tables in text files, as spreadsheets and measuring programs write them: header and rows of cells."""
+
+import csv
+import re
+from collections.abc import Iterator
+
+from .io import CarriedError
+
+_SEPARATORS = ";\t,"
+_COMMENT = re.compile(r"^\s*#.*|\s#\s.*")
+_NUMBER = re.compile(r"\s*[-+]?[\d.,]*\d[\d.,]*(e[-+]?\d+)?\s*", re.IGNORECASE)
+_DECIMAL_COMMA = re.compile(r"\s*[-+]?\d*,\d+(e[-+]?\d+)?\s*", re.IGNORECASE)
+
+
+class TableTextError(CarriedError):
+    """Text that cannot be read as a table. Parameters: `line` from 1, and the `reason`."""
+
+    def __init__(self, line: int, reason: str):
+        super().__init__(line, reason)
+        self.line, self.reason = line, reason
+
+    def __str__(self) -> str:
+        return f"line {self.line}: {self.reason}"
+
+
+def table_rows(text: str) -> Iterator[tuple[int, list[str]]]:
+    """Number of the line (from 1) and stripped cells of the header, then of each row; of an empty text nothing.
+
+    Comma, semicolon or tab separate cells. Between semicolons or tabs a number may have a decimal comma, which becomes a point.
+    Blank lines, comments (#) and lines before the header are skipped. Raises TableTextError for text that is no CSV.
+    """
+    lines = [_COMMENT.sub("", line) for line in text.splitlines()]
+    start, separator = _header(lines)
+    reader = csv.reader((line + "\n" for line in lines[start:]), delimiter=separator, strict=True, skipinitialspace=True)
+    try:
+        for cells in reader:
+            if any(cell.strip() for cell in cells):
+                yield start + reader.line_num, [_cell(cell, separator) for cell in cells]
+    except csv.Error as error:
+        raise TableTextError(start + reader.line_num, f"not readable as a table: {error}") from None
+
+
+def _cell(cell: str, separator: str) -> str:
+    return (cell.replace(",", ".") if separator != "," and _DECIMAL_COMMA.fullmatch(cell) else cell).strip()
+
+
+def _header(lines: list[str]) -> tuple[int, str]:
+    """Place of the header, the first line of titles with as many separators as the last line has, and the separator."""
+    filled = [place for place, line in enumerate(lines) if line.strip()]
+    if not filled:
+        return 0, ","
+    found = []
+    for order, separator in enumerate(_SEPARATORS):
+        count = lines[filled[-1]].count(separator)
+        alike = [place for place in filled[:-1] if lines[place].count(separator) == count]
+        if count and alike and not any(map(_NUMBER.fullmatch, lines[alike[0]].split(separator))):
+            found.append((alike[0], order))
+    if found:
+        place, order = min(found)
+        return place, _SEPARATORS[order]
+    return filled[0], max(",;\t", key=lines[filled[0]].count)
