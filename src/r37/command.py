@@ -55,7 +55,7 @@ _FIRST = """First, write a study and run it; what a run has found stands in resu
   r37 init study && cd study && r37 check config/config.yaml
   snakemake all_blades --cores 2 --config fidelity=draft
 With requirements in config/config.yaml, snakemake verdict says of each blade: meets, fails or cannot tell."""
-"""What `r37 --help` ends with."""
+"""Closing text of `r37 --help`."""
 
 
 def _parser() -> argparse.ArgumentParser:
