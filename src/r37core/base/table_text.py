@@ -49,13 +49,13 @@ def _header(lines: list[str]) -> tuple[int, str]:
     filled = [place for place, line in enumerate(lines) if line.strip()]
     if not filled:
         return 0, ","
-    found = []
+    headers = []
     for order, separator in enumerate(_SEPARATORS):
         count = lines[filled[-1]].count(separator)
         alike = [place for place in filled[:-1] if lines[place].count(separator) == count]
         if count and alike and not any(map(_NUMBER.fullmatch, lines[alike[0]].split(separator))):
-            found.append((alike[0], order))
-    if found:
-        place, order = min(found)
+            headers.append((alike[0], order))
+    if headers:
+        place, order = min(headers)
         return place, _SEPARATORS[order]
     return filled[0], max(",;\t", key=lines[filled[0]].count)
