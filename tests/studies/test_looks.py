@@ -39,6 +39,7 @@ from r37studies.requirements.judging import (
     SLIGHTLY_MORE_FRICTION,
     SLOW_RISE,
     SLOWEST_RISE,
+    SUDDEN_RISE,
     UP,
     judge,
 )
@@ -118,7 +119,7 @@ def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_b
     rising = replace(LINED, casing=replace(LINED.casing, rise_revolutions=LINED.casing.rise_fraction * CHOICE.revolutions))
     friction, damped, casing = rising.friction, (replace(rising, damping_ratio=ratio) for ratio in (0.0, 0.5)), rising.casing
     factors = {MORE_FRICTION: 1.01, LESS_FRICTION: 0.99, SLIGHTLY_MORE_FRICTION: 1.001}
-    rises = {FAST_RISE: 0.6, BRIEF_RISE: 4.0, SLOW_RISE: 12.0, SLOWEST_RISE: 8.0}
+    rises = {FAST_RISE: 0.6, SUDDEN_RISE: 1.0, BRIEF_RISE: 4.0, SLOW_RISE: 12.0, SLOWEST_RISE: 8.0}
     scenes = {REST: rising, HALF_STEP: rising} | dict(zip((LOWEST_DAMPING, HIGHEST_DAMPING), damped, strict=True))
     for look, factor in factors.items():
         scenes[look] = replace(rising, friction=replace(friction, coefficient=factor * friction.coefficient))
@@ -137,7 +138,7 @@ def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_b
         assert used[name] == row["used_thickness"]
         # next to a followed run's
         np.testing.assert_array_equal(run["amplitude"].dropna("engine_order"), row["amplitude"])
-    assert len(set(used.values())) == 11 and lengths == {20, 48}
+    assert len(set(used.values())) == 12 and lengths == {20, 48}
 
 
 def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
@@ -274,7 +275,17 @@ def test_nothing_more_is_run_of_what_fails(asked, monkeypatch):
 def test_without_friction_only_the_step_is_changed(asked, lined):
     bare = replace(lined, scene=replace(DIRECT, friction=None), results=(), coarser=None)
     run_ups = tuple(f"in a run-{direction} at 519 rad/s2" for direction in ("up", "down"))
-    assert tuple(asked(evidence(), blade=bare)) == (REST, BRIEF_RISE, SLOW_RISE, SLOWEST_RISE, UP, DOWN, *run_ups, HALF_STEP)
+    assert tuple(asked(evidence(), blade=bare)) == (
+        REST,
+        SUDDEN_RISE,
+        BRIEF_RISE,
+        SLOW_RISE,
+        SLOWEST_RISE,
+        UP,
+        DOWN,
+        *run_ups,
+        HALF_STEP,
+    )
 
 
 SPEEDS, NEAR = 1000.0 + 2.5 * np.arange(4), np.array([0.2, 0.6, 0.61, 0.2])

@@ -32,6 +32,7 @@ LOWEST_DAMPING, HIGHEST_DAMPING = "lowest damping", "highest damping"
 FAST_RISE, SLOW_RISE = "lobes that rise ten times as fast", f"lobes that rise over {PUBLISHED_REVOLUTIONS} revolutions"
 SLOWEST_RISE = f"lobes that rise over {LONGEST - PUBLISHED_REVOLUTIONS} revolutions"
 BRIEF_RISE = f"lobes that rise over {BRIEF} revolutions"
+SUDDEN_RISE = "lobes that rise over a revolution"
 _OF_ERROR = {HALF_STEP: 1.0 / (1.0 - 0.5), COARSER_MESH: 1.0 / (2.0**0.5 - 1.0)}
 """Further run -> error of the runs themselves as a multiple of how far it comes out otherwise, by Richardson.
 
@@ -39,7 +40,7 @@ Of first order in the step and in the size of the elements, as contact leaves it
 2^(1/2) as long.
 """
 
-LARGE_CHANGES = (LOWEST_DAMPING, HIGHEST_DAMPING, FAST_RISE, BRIEF_RISE, SLOW_RISE, SLOWEST_RISE)
+LARGE_CHANGES = (LOWEST_DAMPING, HIGHEST_DAMPING, FAST_RISE, SUDDEN_RISE, BRIEF_RISE, SLOW_RISE, SLOWEST_RISE)
 LOOKS = (REST, HALF_FRICTION, *LARGE_CHANGES, UP, DOWN, *REPEATED)
 """Further runs of a blade in a scene; see requirements.looks."""
 

@@ -254,7 +254,12 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
     speeds = runs.response["speed"].values[runs.operates][np.argsort(-near, kind="stable")[:count]].tolist()
     changes = {judging.LOWEST_DAMPING: scene.damped("lowest"), judging.HIGHEST_DAMPING: scene.damped("highest")}
     fast = 0.1 * (scene.casing.rise_revolutions or 0.0)
-    rises = {judging.FAST_RISE: fast, judging.BRIEF_RISE: float(BRIEF), judging.SLOW_RISE: float(PUBLISHED_REVOLUTIONS)}
+    rises = {
+        judging.FAST_RISE: fast,
+        judging.SUDDEN_RISE: 1.0,
+        judging.BRIEF_RISE: float(BRIEF),
+        judging.SLOW_RISE: float(PUBLISHED_REVOLUTIONS),
+    }
     if near.max(initial=0.0) < 1.0:
         # it shows more than the others, which takes nothing from what fails
         rises[judging.SLOWEST_RISE] = float(LONGEST - PUBLISHED_REVOLUTIONS)
