@@ -104,7 +104,9 @@ def test_tables_verdict_and_python_have_the_danger_of_the_runs(results, datasets
     inside = response.sel(speed=slice(1620.0, 1660.0))
     assert verdict.loc["goodman_share", "value"] == pytest.approx(float(inside["goodman_share_inside"].max()), rel=1e-5)
     ours = r37.open_results(results).response(*pair).isel(region=0)
-    np.testing.assert_array_equal(ours["max_von_mises_ever"], response["max_von_mises_ever"])
+    # without the further runs of the verdict
+    sweep = response_of({kind: dataset for kind, dataset in datasets.items() if kind != FURTHER_RUNS}, *pair)
+    np.testing.assert_array_equal(ours["max_von_mises_ever"], sweep["max_von_mises_ever"])
     assert str(ours["stress_region"].values) == rows["stress_region"].iloc[0] if len(rows) else True
 
 
