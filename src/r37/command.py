@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import os
 import signal
+import subprocess
 import sys
 import warnings
 from collections.abc import Sequence
@@ -79,12 +80,20 @@ def _parser() -> argparse.ArgumentParser:
     folder = commands.add_parser("init", help="write a folder for a study of one's own: configuration, Snakefile, profiles")
     folder.set_defaults(run=_init)
     folder.add_argument("folder", help="new or empty")
+    report = commands.add_parser("report", help="pack a finished run into report.zip, for a colleague")
+    report.set_defaults(run=_report)
+    report.add_argument("results", nargs="?", default="results", help="folder of the run; without it results")
     return parser
 
 
 def _init(options: argparse.Namespace) -> None:
     r37.init(options.folder)
     print(f"{options.folder}: edit config/, then, in that folder: snakemake all_blades --cores 2")
+
+
+def _report(options: argparse.Namespace) -> None:
+    done = subprocess.run([sys.executable, "-m", "r37core.console.report", options.results], check=False)
+    sys.exit(done.returncode)
 
 
 def _campbell(options: argparse.Namespace) -> None:

@@ -272,7 +272,7 @@ def test_report_of_a_run_by_its_own_configuration(sweep_copy, monkeypatch, capsy
     for folder in ("results", "results/runs/frist"):
         assert report([folder]) == 1
         refused = capsys.readouterr().err
-        assert f"RESULTS: found {folder}, where no configuration.json of a run lies" in refused
+        assert f"report: found {folder}, where no configuration.json of a run lies" in refused
         assert refused.endswith("; runs with a name: results/runs/first\n")
     command = [sys.executable, "-m", "r37core.console.report", "results/runs/first"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, check=False)

@@ -1,4 +1,4 @@
-"""Snakemake's report of a finished run, with the configuration of that run: `python -m r37core.console.report RESULTS`."""
+"""Snakemake's report of a finished run, with the configuration of that run: `r37 report RESULTS`."""
 
 import json
 import os
@@ -30,7 +30,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         command = ["all_blades", "--report", f"{results}/report.zip", "--configfile", str(file), "--replace-workflow-config"]
         done = subprocess.run([sys.executable, "-m", "snakemake", *command], check=False)
     if done.returncode:
-        remedy = "where results are missing, give the command of the run again, then make report"
+        remedy = "where results are missing, give the command of the run again, then r37 report"
         print(f"{results}: no report; {remedy}", file=sys.stderr)
     return done.returncode
 
@@ -45,11 +45,11 @@ def configuration_of(results: Path) -> Mapping[str, Any]:
         runs = sorted(str(path.parent) for path in Path().glob(f"{results_folder('*')}/{CONFIGURATION}"))
         others = f"; runs with a name: {', '.join(runs)}" if runs else ""
         raise ValueError(
-            f"RESULTS: found {results}, where no {CONFIGURATION} of a run lies; allowed: the folder of a run, as in: "
-            f"make all_blades, then make report; or make report RESULTS={results_folder('NAME')}{others}"
+            f"report: found {results}, where no {CONFIGURATION} of a run lies; allowed: the folder of a run, as in: "
+            f"r37 report, or r37 report {results_folder('NAME')}{others}"
         ) from None
     if results.resolve() != folder.resolve():
-        raise ValueError(f"RESULTS: found {results}, a copy of the results in {folder}; allowed: {folder}")
+        raise ValueError(f"report: found {results}, a copy of the results in {folder}; allowed: {folder}")
     return config
 
 
