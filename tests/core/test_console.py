@@ -1,6 +1,5 @@
 """What r37 knows of Snakemake's inside, each name looked for in it; and one line about thousands of jobs."""
 
-import importlib
 import io
 import logging
 import os
@@ -192,13 +191,6 @@ def test_only_the_terminal_s_handler_is_quietened():
     assert quieten([terminal, file], progress := Progress(1))
     assert (terminal.filters, file.filters) == ([progress], [])
     assert not quieten([file], progress)
-
-
-def test_dask_is_out_of_reach_of_the_last_lines_and_of_nothing_else(monkeypatch):
-    monkeypatch.delitem(sys.modules, "dask", raising=False)
-    with snakemake_run._without_dask(), pytest.raises(ImportError):
-        importlib.import_module("dask")
-    assert "dask" not in sys.modules
 
 
 @pytest.mark.slow

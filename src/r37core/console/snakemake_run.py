@@ -70,11 +70,8 @@ class Console:
         lock.release()
         if self.caller:
             return
-        with _without_dask():
-            extension_lines = lines_of_extensions(self.settings, self.began)
-            lines = closing_lines(
-                self.settings.results, self.began, time.time(), remarks_at_end(self.settings), extension_lines
-            )
+        extension_lines = lines_of_extensions(self.settings, self.began)
+        lines = closing_lines(self.settings.results, self.began, time.time(), remarks_at_end(self.settings), extension_lines)
         _say_last([*failures.taken(), *lines])
 
     def fail(self) -> None:
@@ -159,19 +156,6 @@ class MessageAlone(logging.Filter):
         if self._interrupted and record.levelno == logging.ERROR and getattr(record, "exception", None) == "WorkflowError":
             record.msg, record.levelno, record.levelname = failures.STOPPED, logging.INFO, "INFO"
         return True
-
-
-@contextlib.contextmanager
-def _without_dask() -> Iterator[None]:
-    """Keep xarray from importing dask with the first file that it opens, which takes longer than the lines of a run."""
-    if "dask" in sys.modules:
-        yield
-        return
-    sys.modules["dask"] = None  # type: ignore[assignment]
-    try:
-        yield
-    finally:
-        del sys.modules["dask"]
 
 
 @contextlib.contextmanager

@@ -102,7 +102,8 @@ def _curve(variable: xr.DataArray) -> dict[str, object]:
 
 def _danger(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> dict[str, object]:
     """Ranges of speeds (rad/s) of each kind of a blade and scene, their lengths together, and limits that are left first."""
-    response = response_of(datasets, blade, scene)
+    # those that a verdict's further runs may have joined
+    response = response_of({kind: datasets[kind] for kind in ("rms", "stress") if kind in datasets}, blade, scene)
     ranges = kinds_of(response)
     return {
         "ranges": {kind: [[part.begin, part.end] for part in parts] for kind, parts in ranges.items()},

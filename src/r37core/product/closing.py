@@ -163,11 +163,13 @@ def _named(rows: pd.DataFrame) -> str:
 def _over_scenes(rows: pd.DataFrame) -> list[str]:
     """Blades ranked over all scenes, each with its longest length; nothing for one scene, and for one blade."""
     known = rows[rows["rank_over_scenes"].notna()]
-    longest = known.sort_values(_LENGTH, ascending=False, kind="stable").drop_duplicates("blade")
+    known = known.assign(end=known[_LENGTH] + known[_UNKNOWN])
+    longest = known.sort_values("end", ascending=False, kind="stable").drop_duplicates("blade")
     if len(longest) < 2:
         return []
     shown = longest.sort_values(["rank_over_scenes", _LENGTH], kind="stable").head(MOST_BLADES)
-    named = (shown["blade"] + shown[_LENGTH].map(" {:.0f}".format)).groupby(shown["rank_over_scenes"], sort=False)
+    ends = shown["end"].map(" to {:.0f}".format).where(shown[_UNKNOWN] > 0.0, "")
+    named = (shown["blade"] + shown[_LENGTH].map(" {:.0f}".format) + ends).groupby(shown["rank_over_scenes"], sort=False)
     places = [" = ".join(equal) for _, equal in named]
     more = ", ..." if len(longest) > MOST_BLADES else ""
     equal = " (=: cannot be told apart)" if len(places) < len(shown) else ""
