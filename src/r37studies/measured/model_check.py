@@ -1,4 +1,4 @@
-"""Whether a model can be right: what direct runs leave of the measured values once its numbers are fitted.
+"""Doubts about a fitted model, by direct runs with its numbers.
 
 Two things speak against a model: too large differences, and differences of one sign over a segment of speeds or orders.
 One point alone does not: the largest difference is left out of the first. Points are left out as on another branch where runs
