@@ -88,7 +88,8 @@ def settle_forces(c, count, largest_gap, thickness, lined):
             opened, before, own = open_gaps(c, g, count), load(c.pressure, g), load(c.own, g)
             penetration = own * before - opened
             force = take_laws(c, g, penetration, thickness, lined)
-            changed |= bits_of(np.abs(force - before) * own > TOLERANCE * largest_gap)
+            # written so that NaN counts as changed
+            changed |= ~bits_of(np.abs(force - before) * own < TOLERANCE * largest_gap) & c.found[g // LANES]
             store(c.opened, g, opened)
             store(c.intercept, g, force - load(c.slope, g) * (penetration + load(c.gap, g)))
             store(c.pressure, g, force)
@@ -103,7 +104,8 @@ def solve_pieces(c, count):
     """Solve p = a + s (d p - G p) for the forces: law by law a line of slope s, d the diagonal of G, a its force for p = 0.
 
     By Gauss-Jordan elimination on whole columns of I + s (G - d), whose diagonal is one. No pivot vanishes: the matrix is a
-    P-matrix, as G is. Nodes that nothing presses have no slope, and so no column.
+    P-matrix, as G is. Where G is singular the solution is not finite, and the sweeps follow. Nodes that nothing presses have no
+    slope, and so no column.
     """
     lanes, pressed = lanes_used(c.gap, c.lanes), 0
     for j in range(count):
@@ -132,6 +134,10 @@ def solve_pieces(c, count):
 def sweep_nodes(c, count, largest_gap, thickness, lined):
     """Do what settle_forces does, node by node, each with the forces that those before it have got."""
     lanes, largest = lanes_used(c.gap, c.lanes), 0.0
+    for g in range(0, lanes, LANES):
+        pressure = load(c.pressure, g)
+        # of singular laws the solution is not finite
+        store(c.pressure, g, np.where(np.abs(pressure) < np.inf, pressure, 0.0))
     for g in range(0, lanes, LANES):
         store(c.opened, g, open_gaps(c, g, count))
     for _ in range(SWEEPS):
