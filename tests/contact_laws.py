@@ -5,10 +5,10 @@ from dataclasses import fields
 import numpy as np
 from numba import njit
 
-from r37core.contact import complementarity, laws, node_forces
+from r37core.contact import laws, node_forces
 from r37core.machine_code.alignment import LANES, aligned_record, aligned_zeros, padded
 from r37core.machine_code.lanes import OPTIONS, inlined, load, store
-from r37core.time_integration.compiled.layout import LINING, complementarity_record, contact_record
+from r37core.time_integration.compiled.layout import LINING, contact_record
 
 _return_mapping, _friction_direction = inlined(laws.return_mapping), inlined(laws.friction_direction)
 
@@ -24,11 +24,6 @@ def _direct(room):
     tangential, meridional = _friction_direction(load(m.values, (0, 0)), load(m.values, (1, 0)))
     store(m.values, (0, 0), tangential)
     store(m.values, (1, 0), meridional)
-
-
-@njit(**OPTIONS)
-def _complement(room):
-    return complementarity.solve_complementarity(room[0].problem, room[0].columns)
 
 
 @njit(**OPTIONS)
@@ -66,23 +61,6 @@ def friction_direction(tangential, meridional):
     room[0]["values"][:, 0] = tangential, meridional
     _direct(room)
     return tuple(room[0]["values"][:, 0])
-
-
-def solve_complementarity(matrix, gap, guess=None):
-    """Multipliers and the largest violation."""
-    count, nodes = len(gap), padded(len(gap))
-    room = aligned_zeros(
-        (1,), aligned_record([("problem", complementarity_record(nodes), ()), ("columns", np.float64, (nodes, nodes))])
-    )
-    p = room[0]["problem"]
-    room[0]["columns"][:count, :count] = np.transpose(matrix)
-    p["diagonal"], p["lanes"] = 1.0, nodes
-    p["diagonal"][:count], p["gap"][:count] = np.diag(matrix), gap
-    if guess is None or not np.any(guess):
-        guess = np.asarray(gap) < 0.0
-    p["touching"] = np.packbits(np.pad(guess, (0, nodes - count)), bitorder="little")
-    violation = _complement(room)
-    return p["multiplier"][:count].copy(), violation
 
 
 def press_nodes(matrix, gap, bar=None, area=0.0, wear=0.0, start=0.0, by_sweeps=False):

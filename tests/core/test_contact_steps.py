@@ -518,7 +518,7 @@ def test_forces_of_twenty_patches_are_those_of_the_complementarity_problem(frict
         directions = np.stack([-np.ones(nodes), *share])
         listed = pressure > 0.0
         matrix = -np.einsum("dk,dkg->gk", directions, simulation.problem.contact.contact_flexibility)
-        gap = engine.record[0]["problem"]["gap"][:nodes].copy()
+        gap = engine.record[0]["contact"]["gap"][:nodes].copy()
         # of the nodes that touch the direction of friction is known
         expected = complementary(matrix[np.ix_(listed, listed)], gap[listed])
         np.testing.assert_allclose(pressure[listed], expected, rtol=1e-6, atol=1e-9 * expected.max())

@@ -11,23 +11,19 @@ import numpy as np
 
 from r37core.contact.node_forces import set_laws, settle_forces, wear_bars
 from r37core.machine_code.alignment import LANES
-from r37core.machine_code.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
+from r37core.machine_code.lanes import bits_of, first_bit, flags_of, inlined, load, numbers_at, store
 
-from .steps import bar_at, friction_response, heat, leave_casing, node_lanes, set_friction_of_listed, wear_bar
+from .steps import bar_at, heat, largest_gap, leave_casing, node_lanes, set_column, set_friction_of_listed, touch, wear_bar
 
 
 @inlined
 def press_contact(m, place):
     """The contact forces at u_n from the gaps there, and the wear; returns whether there are any."""
     c, thickness = m.contact, m.lining.thickness
-    largest_gap, violation = 0.0, 0.0
+    largest, violation = largest_gap(m), 0.0
     for g in range(0, node_lanes(m), LANES):
-        gap = load(m.problem.gap, g)
-        store(c.gap, g, gap)
-        store(c.opened, g, gap)
+        store(c.opened, g, load(c.gap, g))
         c.found[g // LANES] = 0
-        size = np.where(flags_of((1 << min(m.nodes - g, LANES)) - 1), np.abs(gap), 0.0)
-        largest_gap = max(largest_gap, largest_of_lanes(np.where(size > 0.0, size, 0.0)))
     count = int(np.int64(0))
     while True:
         joined = list_beyond(m, count, place)
@@ -36,13 +32,13 @@ def press_contact(m, place):
         if m.follows_sliding != 0:
             set_friction_of_listed(m, c.listed, joined)
         for j in range(count, joined):
-            set_column(m, c.listed[j])
+            set_column(m, m.flexibility, c.listed[j])
         for g in range(0, node_lanes(m), LANES):
             # from the forces a step ago
             store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), -load(m.force, g), 0.0))
         count = joined
         set_laws(c, count, m.lining, m.lined)
-        violation = settle_forces(c, count, largest_gap, thickness, m.lined)
+        violation = settle_forces(c, count, largest, thickness, m.lined)
     if count == 0:
         release_contact(m)
         return False
@@ -83,13 +79,6 @@ def list_beyond(m, count, place):
 
 
 @inlined
-def set_column(m, k):
-    """Opening of the gaps, at once, by a normal force on a node with its friction."""
-    for g in range(0, node_lanes(m), LANES):
-        store(m.contact.columns, (k, g), friction_response(m, m.flexibility, k, g))
-
-
-@inlined
 def keep_forces(m, count):
     """Make the normal forces found those on the nodes, with their friction, and wear the bars; whether there are any."""
     c = m.contact
@@ -102,12 +91,7 @@ def keep_forces(m, count):
         heat(m, g, normal)
         pressed = bits_of(normal < 0.0)
         any_pressed |= pressed
-        touching = wear_bars(c, g, m.lining) if m.lined != 0 else pressed
-        onsets = touching & ~m.touched[g // LANES]
-        m.touched[g // LANES] = touching
-        while onsets:
-            m.totals.casing_hits += 1.0
-            onsets &= onsets - 1
+        touch(m, g, wear_bars(c, g, m.lining) if m.lined != 0 else pressed)
     if m.lined != 0:
         for j in range(count):
             k = c.listed[j]

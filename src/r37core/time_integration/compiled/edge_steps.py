@@ -40,7 +40,7 @@ def _near_the_casing(m):
         near = 0
         for g in range(0, node_lanes(m), LANES):
             # what is left to the casing
-            left = load(m.problem.gap, g) if PUBLISHED else load(m.contact.opened, g) + m.lining.thickness
+            left = load(m.contact.gap, g) if PUBLISHED else load(m.contact.opened, g) + m.lining.thickness
             near |= bits_of(left < m.edge.near)
         return near != 0
     return True
@@ -90,7 +90,7 @@ def _displaced_at_once(m, group, pressed):
     nodes, flexibility = node_lanes(m), numbers_at(m.edge.flexibility)
     total, first = spread(0.0), group * 3 * nodes * LANES
     for j in range(pressed):
-        k = m.problem.listed[j]
+        k = m.contact.pressed[j]
         total += load(flexibility, first + k * LANES) * m.force[k]
         total += load(flexibility, first + (nodes + k) * LANES) * m.friction_force[0, k]
         total += load(flexibility, first + (2 * nodes + k) * LANES) * m.friction_force[1, k]

@@ -22,7 +22,7 @@ SOURCES = Sources(
     *(f"machine_code/{name}.py" for name in ("alignment", "code_hash", "kept", "lanes", "native", "program_constants")),
     "base/declared.py",
     "base/units.py",
-    *(f"contact/{name}.py" for name in ("casing", "complementarity", "laws", "node_forces", "ring", "scene")),
+    *(f"contact/{name}.py" for name in ("casing", "laws", "node_forces", "ring", "scene")),
     *(f"time_integration/compiled/{name}.py" for name in _COMPILED),
     "rom/quadratic_terms.py",
     "time_integration/state.py",

@@ -16,7 +16,7 @@ from ..problem import Problem
 from ..quadratic_motion import QuadraticMotion
 from ..segments import Segments
 from .edge_tables import EdgeTables
-from .layout import LINING, MODAL_ROWS, NORMAL, Capacity, Kind, capacity_of, constants_record, integration_record
+from .layout import LINING, Capacity, Kind, capacity_of, constants_record, integration_record
 
 _ROWS_AT_ONCE = 2**17
 """Steps whose casing is computed at once."""
@@ -77,10 +77,8 @@ class LaidOutProblem:
 
     def take(self, speed_index: int) -> None:
         """Go on at this one of the speeds."""
-        m, constants = self.record[0], self.constants[speed_index]
-        for name in constants.dtype.names:
-            m["speed"][name][..., : constants[name].shape[-1]] = constants[name]
-        m["problem"]["diagonal"][: self._nodes] = np.diagonal(constants["coupling"][NORMAL])[: self._nodes]
+        m = self.record[0]
+        m["speed"] = self.constants[speed_index]
         m["call"]["speed_index"] = speed_index
 
     def _take_room(self, before: LaidOutProblem | None) -> None:
@@ -107,7 +105,7 @@ class LaidOutProblem:
             modal_fields["increment_by_velocity"] = increments.velocity_factor
             modal_fields["velocity_by_increment"] = 1.0 / increments.velocity_factor
         fields |= {name: self._spread(values) for name, values in modal_fields.items()}
-        table = aligned_zeros((len(clearance),), constants_record(self.mode_lanes, self.capacity.nodes))
+        table = aligned_zeros((len(clearance),), constants_record(*self.capacity))
         # a node that only pads the vector must not touch
         table["clearance"] = 1.0
         for name, values in fields.items():
@@ -148,11 +146,10 @@ class LaidOutProblem:
 
     def _lay_out(self, problem: Problem) -> None:
         m = self.record[0]
-        # a node that only pads the vector must neither sit on the axis nor cancel a pivot
-        m["radius"] = m["problem"]["diagonal"] = 1.0
-        m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
-        others = constants_record(*self.capacity).itemsize // NUMBER_BYTES - MODAL_ROWS * self.capacity.modes
-        m["call"]["other_constants"] = others
+        # a node that only pads the vector must not sit on the axis
+        m["radius"] = 1.0
+        m["contact"]["lanes"] = self._node_lanes
+        m["call"]["constants_size"] = constants_record(*self.capacity).itemsize // NUMBER_BYTES
         self.put_modes(
             displacement_operator=problem.contact.displacement_operator,
             outputs=problem.contact.output_operator[None, :, : self._modes],

@@ -86,21 +86,8 @@ CASING = aligned_record(_fields("amplitude rise period width cosine sine"))
 """Amplitude (m) of the lobes; rise rate times step; angle (rad) between lobes and their relative width; cone angle."""
 
 
-def complementarity_record(nodes: int) -> np.dtype:
-    """The record of a complementarity problem of `nodes` nodes, whole vectors of them; see contact.complementarity."""
-    groups = padded(nodes) // padded(1)
-    return aligned_record(
-        _fields("gap multiplier answer short diagonal", nodes),
-        _fields("left", nodes + 1, nodes),
-        _fields("matrix", nodes, nodes + 1),
-        _fields("listed", nodes, kind=np.int64),
-        _fields("touching wrong", groups, kind=np.int64),
-        _fields("lanes", kind=np.int64),  # that the nodes fill
-    )
-
-
 def contact_record(nodes: int) -> np.dtype:
-    """The record of the contact problem at t_n of `nodes` nodes, whole vectors of them; see contact.node_forces."""
+    """The record of the contact problem of `nodes` nodes, whole vectors of them; see contact.node_forces."""
     return aligned_record(
         # gaps (m) without forces and with those found, and these (N)
         _fields("gap opened pressure", nodes),
@@ -113,29 +100,21 @@ def contact_record(nodes: int) -> np.dtype:
         _fields("left", nodes + 1, nodes),
         # opening of the last node's gap per force on the one before (m/N)
         _fields("columns", nodes, nodes),
-        # numbers of the listed nodes, and of those on a line with a slope; the bar of each node
+        # numbers of the listed nodes, and of those on a line with a slope or, in the end, with a force; the bar of each node
         _fields("listed pressed bar", nodes, kind=np.int64),
         _fields("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
         _fields("lanes", kind=np.int64),  # that the nodes fill
     )
 
 
-_MODAL_CONSTANTS = (
-    # of the recursion: see steps; energy lost per step and squared central difference
-    "keep pull inverse loss "
-    # increment of a free mode per displacement and per velocity, and one over the latter
-    "increment_by_displacement increment_by_velocity velocity_by_increment"
-)
-
-MODAL_ROWS = len(_MODAL_CONSTANTS.split())
-"""Rows of a speed with a number for each mode: its constants begin with them, and copies them as far as there are modes."""
-
-
 @cache
 def constants_record(modes: int, nodes: int) -> np.dtype:
     """Record of what changes with the speed while its modes are held, of whole vectors of modes and nodes."""
     return aligned_record(
-        _fields(_MODAL_CONSTANTS, modes),
+        # of the recursion: see steps; energy lost per step and squared central difference
+        _fields("keep pull inverse loss", modes),
+        # increment of a free mode per displacement and per velocity, and one over the latter
+        _fields("increment_by_displacement increment_by_velocity velocity_by_increment", modes),
         # normal displacement of the last node per force in the three directions on the one before
         _fields("coupling", 3, nodes, nodes),
         _fields("clearance", nodes),  # of the round casing (m)
@@ -190,8 +169,8 @@ CALL = aligned_record(
     _fields("constants speed_indices lasting ends worn", kind=np.int64),
     # what each block adds to the clearance (m)
     _fields("openings", kind=np.int64),
-    # number of a speed's constants that are not of modes
-    _fields("other_constants", kind=np.int64),
+    # count of a speed's constants
+    _fields("constants_size", kind=np.int64),
 )
 """Arguments of a call of the program."""
 
@@ -211,8 +190,6 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("outputs", 1, modes, modes),
         _fields("sample", modes),
         _fields("friction_share", 2, nodes),  # tangential and meridional force per normal force
-        # with central differences: opening of the last node's gap per unit multiplier of the one before, with friction
-        _fields("response", nodes, nodes),
         _fields("force", nodes),
         _fields("friction_force", 2, nodes),
         # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
@@ -228,8 +205,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
         # exact gap, angle in bars at t_n
         _fields("bar_position bar_surface penetration last_position", nodes),
         _fields("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
-        _fields("problem", kind=complementarity_record(nodes)),
-        _fields("beyond touched", groups, kind=np.int64),
+        _fields("touched", groups, kind=np.int64),
         # by how much pairs of the casing's modes turn in a step
         _fields("turn_cosine turn_sine", modes // 2),
         _fields("lining", kind=LINING),

@@ -18,7 +18,7 @@ A step follows docs/simulation.md. Equations in the order of that page, and the 
 | ... exact | steps.measure_exact_gaps, contact.laws.displaced_position |
 | Friction: -mu N v/|v| | contact.laws.friction_direction, steps.set_friction |
 | Direct contact, at t_n | contact.node_forces.settle_forces |
-| ... for q_{n+1} | steps.press_casing, contact.complementarity.solve_complementarity |
+| ... for q_{n+1} | steps.press_casing, contact.node_forces.settle_forces |
 | Lining: return mapping | contact.laws.return_mapping, for q_{n+1}: steps.press_lining |
 | ... at t_n, in series with the node | contact.laws.lines_of_bar, contact.node_forces.take_laws; wear: contact.laws.worn |
 | Contact at long steps: R, G | time_integration.static_modes.residual_flexibility, contact_steps.set_column |
@@ -100,7 +100,7 @@ def _measure(addresses, blades, place, lobes):
             measure_exact_gaps(m, place, lobes)
         else:
             measure_gaps(m, place, lobes)
-        take_gaps(m, m.problem.gap, place)
+        take_gaps(m, m.contact.gap, place)
 
 
 @inlined
@@ -180,7 +180,7 @@ def _correct(m, beyond, place):
     """Correct the prediction by forces on nodes that are beyond lining or casing, as published."""
     if m.lined != 0:
         # before the forces open the gaps
-        follow_gaps(m, m.problem.gap, place)
+        follow_gaps(m, m.contact.gap, place)
     if beyond:
         work, lost = meet(m, place, load(m.block_energy, (0, 0)), load(m.block_energy, (1, 0)))
         store(m.block_energy, (0, 0), work)
@@ -201,7 +201,7 @@ def _press(m, beyond, place):
         else:
             leave_casing(m)
         for g in range(0, node_lanes(m), LANES):
-            store(m.contact.opened, g, load(m.problem.gap, g))
+            store(m.contact.opened, g, load(m.contact.gap, g))
     if m.lined != 0:
         follow_gaps(m, m.contact.opened, place)
 

@@ -6,7 +6,6 @@ An increment u_n - u_{n-1} belongs to its speed: it is that of a free mode of th
 from r37core.machine_code.alignment import LANES
 from r37core.machine_code.lanes import inlined, integers_at, load, numbers_at, numbers_of, store
 
-from .layout import MODAL_ROWS, NORMAL
 from .steps import mode_lanes
 
 
@@ -26,15 +25,9 @@ def take_speed(m, index):
     for i in range(0, mode_lanes(m), LANES):
         displacement_share = load(m.speed.increment_by_displacement, i) * load(m.u, i)
         store(m.increment, i, (load(m.increment, i) - displacement_share) * load(m.speed.velocity_by_increment, i))
-    own, table, modes, most = numbers_of(m), numbers_at(m.call.constants), mode_lanes(m), len(m.u)
-    first = index * (MODAL_ROWS * modes + m.call.other_constants)
-    for row in range(MODAL_ROWS):
-        for i in range(0, modes, LANES):
-            store(own, row * most + i, load(table, first + row * modes + i))
-    for i in range(0, m.call.other_constants, LANES):
-        store(own, MODAL_ROWS * most + i, load(table, first + MODAL_ROWS * modes + i))
-    for k in range(m.nodes):
-        m.problem.diagonal[k] = m.speed.coupling[NORMAL, k, k]
+    own, table, size = numbers_of(m), numbers_at(m.call.constants), m.call.constants_size
+    for i in range(0, size, LANES):
+        store(own, i, load(table, index * size + i))
     for i in range(0, mode_lanes(m), LANES):
         displacement_share = load(m.speed.increment_by_displacement, i) * load(m.u, i)
         store(m.increment, i, displacement_share + load(m.speed.increment_by_velocity, i) * load(m.increment, i))

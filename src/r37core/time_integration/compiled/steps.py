@@ -10,15 +10,17 @@ integer. Names in capitals that choose are those of layout.Kind, constants of ea
 
 import numpy as np
 
-from r37core.contact.complementarity import list_nodes, solve_complementarity
 from r37core.contact.laws import displaced_position, friction_direction, line_of_wear, lobe_shape, return_mapping
+from r37core.contact.node_forces import set_laws, settle_forces
 from r37core.machine_code.alignment import LANES
 from r37core.machine_code.lanes import (
     bits_of,
     first_bit,
     flag_at,
+    flags_of,
     inlined,
     lanes_of,
+    largest_of_lanes,
     load,
     numbers_at,
     spread,
@@ -28,9 +30,6 @@ from r37core.machine_code.lanes import (
 )
 
 from .layout import EXACT_GAP, MERIDIONAL, NORMAL, OF_MODES, OF_NODES, PUBLISHED, TANGENTIAL
-
-FEW_NODES = 3
-"""Largest number of nodes whose friction is set one by one."""
 
 _friction_direction = inlined(friction_direction)
 _return_mapping = inlined(return_mapping)
@@ -96,18 +95,18 @@ def predict(m, lost):
 @inlined
 def sum_pushes(m):
     """Put into the pushes what the forces on all pressed nodes are to the modes; returns whether any node is pressed."""
-    p, count = m.problem, list_pressed(m)
+    pressed, count = m.contact.pressed, list_pressed(m)
     if count == 0:
         return False
     m.totals.steps_in_contact += 1.0
     largest = m.totals.largest_force
     for j in range(count):
-        largest = max(largest, -m.force[p.listed[j]])
+        largest = max(largest, -m.force[pressed[j]])
     m.totals.largest_force = largest
     if count % 2 != 0:
-        add_pushes(m, p.listed[0], p.listed[0], False)
+        add_pushes(m, pressed[0], pressed[0], False)
     for j in range(count % 2, count, 2):
-        add_pushes(m, p.listed[j], p.listed[j + 1], True)
+        add_pushes(m, pressed[j], pressed[j + 1], True)
     return True
 
 
@@ -195,10 +194,8 @@ def measure_gaps(m, place, lobes):
     for g in range(0, node_lanes(m), LANES):
         normal = displaced(m, NORMAL, g)
         gap = load(m.speed.clearance, g) + m.opening - lobes * load(shape, place * node_lanes(m) + g) - normal
-        store(m.problem.gap, g, gap)
-        beyond = bits_of(gap < 0.0)
-        m.beyond[g // LANES] = beyond
-        any_beyond |= beyond
+        store(m.contact.gap, g, gap)
+        any_beyond |= bits_of(gap < 0.0)
     return any_beyond != 0
 
 
@@ -206,23 +203,19 @@ def measure_gaps(m, place, lobes):
 def measure_exact_gaps(m, place, lobes):
     """Gaps between the displaced nodes and the lobed cone: see r37core.contact.casing. Whether any is passed."""
     turned = place * (2.0 * np.pi / m.steps_per_revolution)
-    any_beyond = False
+    c, casing, any_beyond = m.contact, m.casing, False
     for g in range(0, node_lanes(m), LANES):
         # room that is free before contact
-        store(m.problem.multiplier, g, displaced(m, NORMAL, g))
-        store(m.problem.answer, g, displaced(m, TANGENTIAL, g))
-        store(m.problem.short, g, displaced(m, MERIDIONAL, g))
-        m.beyond[g // LANES] = 0
+        store(c.pressure, g, displaced(m, NORMAL, g))
+        store(c.slope, g, displaced(m, TANGENTIAL, g))
+        store(c.intercept, g, displaced(m, MERIDIONAL, g))
     for k in range(m.nodes):
-        p, casing = m.problem, m.casing
         position, m.shift[k] = _displaced_position(
-            p.multiplier[k], p.answer[k], p.short[k], m.radius[k], casing.cosine, casing.sine
+            c.pressure[k], c.slope[k], c.intercept[k], m.radius[k], casing.cosine, casing.sine
         )
         shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
-        p.gap[k] = m.speed.clearance[k] + m.opening - lobes * shape - position
-        if p.gap[k] < 0.0:
-            m.beyond[k // LANES] |= 1 << (k % LANES)
-            any_beyond = True
+        c.gap[k] = m.speed.clearance[k] + m.opening - lobes * shape - position
+        any_beyond |= c.gap[k] < 0.0
     return any_beyond
 
 
@@ -242,7 +235,7 @@ def set_friction(m, g, tangential, meridional):
 
 @inlined
 def set_friction_of_listed(m, listed, count):
-    """Vector friction on `listed` nodes: more costly for each than `set_friction_against_last`, but they are few.
+    """Vector friction on `listed` nodes.
 
     With forces at t_n it is against the sliding then, extrapolated from the last two increments, else in the last step.
     """
@@ -261,15 +254,6 @@ def set_friction_of_listed(m, listed, count):
                 # put into lanes here: loading together what was stored one by one stalls the processor
                 tangential = np.where(flag_at(k - g), sum_of_lanes(t), tangential)
                 meridional = np.where(flag_at(k - g), sum_of_lanes(r), meridional)
-        set_friction(m, g, tangential, meridional)
-
-
-@inlined
-def set_friction_against_last(m):
-    """Vector friction on all nodes, against their sliding in the last step."""
-    for g in range(0, node_lanes(m), LANES):
-        tangential = along(m.displacement_operator, TANGENTIAL, m.last_increment, g, mode_lanes(m))
-        meridional = along(m.displacement_operator, MERIDIONAL, m.last_increment, g, mode_lanes(m))
         set_friction(m, g, tangential, meridional)
 
 
@@ -300,11 +284,33 @@ def heat(m, g, normal):
 
 
 @inlined
+def list_lanes(bits, g, listed, count):
+    """List after `count` others the nodes from g on whose bits are set; returns how many there are."""
+    while bits:
+        listed[count] = g + first_bit(bits)
+        count += 1
+        bits &= bits - 1
+    return count
+
+
+@inlined
 def list_pressed(m):
     """List the nodes that a force presses; returns how many."""
+    count = int(np.int64(0))
     for g in range(0, node_lanes(m), LANES):
-        m.problem.wrong[g // LANES] = bits_of(load(m.force, g) < 0.0)
-    return list_nodes(m.problem.wrong, m.problem.listed)
+        count = list_lanes(bits_of(load(m.force, g) < 0.0), g, m.contact.pressed, count)
+    return count
+
+
+@inlined
+def largest_gap(m):
+    """Size (m) of the largest gap."""
+    largest = 0.0
+    for g in range(0, node_lanes(m), LANES):
+        # of the lanes of nodes; NaN does not count
+        size = np.where(flags_of((1 << min(m.nodes - g, LANES)) - 1), np.abs(load(m.contact.gap, g)), 0.0)
+        largest = max(largest, largest_of_lanes(np.where(size > 0.0, size, 0.0)))
+    return largest
 
 
 # Direct contact
@@ -312,30 +318,42 @@ def list_pressed(m):
 
 @inlined
 def press_casing(m):
-    """Add the Lagrange multipliers of direct contact, keep the set of touching nodes."""
-    p = m.problem
-    if m.follows_sliding != 0:
-        # the others' reaction may bring any of them to the casing
-        set_friction_against_last(m)
+    """Add the forces of direct contact, keep the set of touching nodes."""
+    c = m.contact
+    for g in range(0, node_lanes(m), LANES):
+        c.found[g // LANES] = (1 << min(m.nodes - g, LANES)) - 1
+        store(c.pressure, g, 0.0)
+    # the others' reaction may bring any of them to the casing
     for k in range(m.nodes):
-        for g in range(0, node_lanes(m), LANES):
-            store(m.response, (k, g), friction_response(m, m.speed.coupling, k, g))
-    guessed = 0
-    for g in range(node_lanes(m) // LANES):
-        p.touching[g] = m.touched[g]
-        guessed |= m.touched[g]
-    if guessed == 0:
-        for g in range(0, node_lanes(m), LANES):
-            p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0)
-    violation = solve_complementarity(p, m.response)
+        c.listed[k] = k
+    if m.follows_sliding != 0:
+        set_friction_of_listed(m, c.listed, m.nodes)
+    for k in range(m.nodes):
+        set_column(m, m.speed.coupling, k)
+    set_laws(c, m.nodes, m.lining, False)
+    violation = settle_forces(c, m.nodes, largest_gap(m), 0.0, False)
     m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
     for g in range(0, node_lanes(m), LANES):
-        multiplier = load(p.multiplier, g)
-        store(m.force, g, load(m.force, g) - multiplier)
-        touching = bits_of(multiplier > 0.0)
-        p.wrong[g // LANES] = touching & ~m.touched[g // LANES]
-        m.touched[g // LANES] = touching
-    m.totals.casing_hits += list_nodes(p.wrong, p.listed)
+        pressure = load(c.pressure, g)
+        store(m.force, g, load(m.force, g) - pressure)
+        touch(m, g, bits_of(pressure > 0.0))
+
+
+@inlined
+def set_column(m, table, k):
+    """Opening of the gaps by a normal force on a node with its friction; `table`: see friction_response."""
+    for g in range(0, node_lanes(m), LANES):
+        store(m.contact.columns, (k, g), friction_response(m, table, k, g))
+
+
+@inlined
+def touch(m, g, touching):
+    """Keep which of the nodes from g on are `touching` the casing, and count those that were not."""
+    onsets = touching & ~m.touched[g // LANES]
+    m.touched[g // LANES] = touching
+    while onsets:
+        m.totals.casing_hits += 1.0
+        onsets &= onsets - 1
 
 
 @inlined
@@ -351,27 +369,25 @@ def leave_casing(m):
 @inlined
 def press_lining(m, place):
     """Normal forces of the bars that the nodes press, which wear them; whether a node reaches the casing behind the lining."""
-    p, lining, wear = m.problem, m.lining, numbers_at(m.call.wear)
-    count = list_nodes(m.beyond, p.listed)
+    c, lining, wear = m.contact, m.lining, numbers_at(m.call.wear)
+    count = int(np.int64(0))
+    for g in range(0, node_lanes(m), LANES):
+        count = list_lanes(bits_of(load(c.gap, g) < 0.0), g, c.listed, count)
     if m.follows_sliding != 0:
-        # the same sums
-        if count > FEW_NODES:
-            set_friction_against_last(m)
-        else:
-            set_friction_of_listed(m, p.listed, count)
+        set_friction_of_listed(m, c.listed, count)
     for j in range(count):
-        k = p.listed[j]
+        k = c.listed[j]
         bar = bar_at(m, k, place)
-        stress, new = _return_mapping(-p.gap[k], wear[bar], lining.elastic_modulus, lining)
+        stress, new = _return_mapping(-c.gap[k], wear[bar], lining.elastic_modulus, lining)
         wear_bar(m, k, bar, new)
-        m.force[k] = -stress * m.contact.area[k]
+        m.force[k] = -stress * c.area[k]
     any_closed = 0
     for g in range(0, node_lanes(m), LANES):
-        gap = load(p.gap, g) + lining.thickness
+        gap = load(c.gap, g) + lining.thickness
         for j in range(count):
-            k = p.listed[j]
+            k = c.listed[j]
             gap -= friction_response(m, m.speed.coupling, k, g) * m.force[k]
-        store(p.gap, g, gap)
+        store(c.gap, g, gap)
         any_closed |= bits_of(gap < 0.0)
     return any_closed != 0
 
