@@ -25,7 +25,7 @@ class ReferenceEngine:
 
     angle = worn = 0.0
 
-    def __init__(self, problem, segments, before=None, beside=None):
+    def __init__(self, problem, segments, beside=None):
         self.problem, self._segments = problem, segments
         self._blade_rows, self._edge_rows = (rows_of(each, problem) for each in (problem.contact, problem.edge.motion))
         self.step = self._pushed_step if problem.choice.second_order else self._step

@@ -97,7 +97,7 @@ class RunUpIntegration:
             problem = self._problem(interval.speed)
             distinct_speeds, segment_indices = np.unique(interval.speeds, return_inverse=True)
             constants = segments_at(problem, distinct_speeds)
-            # in the memory of the one before
+            # with the casing of the one before
             before = None if self._simulation is None else self._simulation.engine
             self._simulation = simulation = self.simulation_class.build(problem, constants, before)
             increments = constants.increments

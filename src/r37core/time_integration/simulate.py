@@ -39,23 +39,17 @@ class Simulation:
         if scene.rotor is not None:
             raise ValueError("a scene with a rotor: see RotorSimulation")
         self.problem = stable_problem(model, speed, scene, choice)
-        self.engine = self.engine_class(self.problem, own_segment(self.problem), None, None)
+        self.engine = self.engine_class(self.problem, own_segment(self.problem))
 
     @classmethod
-    def build(
-        cls,
-        problem: Problem,
-        segments: Segments | None = None,
-        before: CompiledEngine | None = None,
-        beside: CompiledEngine | None = None,
-    ) -> Self:
+    def build(cls, problem: Problem, segments: Segments | None = None, beside: CompiledEngine | None = None) -> Self:
         """Simulation of a problem, in the `segments` of several speeds if they are given.
 
-        `before`, `beside`: engines of the same scene and choice, see LaidOutProblem.
+        `beside`: an engine of the same scene and choice, see LaidOutProblem.
         """
         simulation = cls.__new__(cls)
         simulation.problem = problem
-        simulation.engine = cls.engine_class(problem, segments or own_segment(problem), before, beside)
+        simulation.engine = cls.engine_class(problem, segments or own_segment(problem), beside)
         return simulation
 
     def start(self, motion: InitialMotion | CarriedMotion | None = None) -> SimulationState:

@@ -13,7 +13,17 @@ from r37core.contact.node_forces import set_laws, settle_forces, wear_bars
 from r37core.machine_code.alignment import LANES
 from r37core.machine_code.lanes import bits_of, first_bit, flags_of, inlined, load, numbers_at, store
 
-from .steps import bar_at, heat, largest_gap, leave_casing, node_lanes, set_column, set_friction_of_listed, touch, wear_bar
+from .steps import (
+    bar_at,
+    largest_gap,
+    leave_casing,
+    node_lanes,
+    set_column,
+    set_friction_force,
+    set_friction_of_listed,
+    touch,
+    wear_bar,
+)
 
 
 @inlined
@@ -51,6 +61,7 @@ def release_contact(m):
     """Release all nodes."""
     leave_casing(m)
     for g in range(0, node_lanes(m), LANES):
+        store(m.contact.opened, g, load(m.contact.gap, g))
         store(m.force, g, 0.0)
         store(m.friction_force, (0, g), 0.0)
         store(m.friction_force, (1, g), 0.0)
@@ -86,9 +97,6 @@ def keep_forces(m, count):
     for g in range(0, node_lanes(m), LANES):
         normal = -load(c.pressure, g)
         store(m.force, g, normal)
-        store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
-        store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
-        heat(m, g, normal)
         pressed = bits_of(normal < 0.0)
         any_pressed |= pressed
         touch(m, g, wear_bars(c, g, m.lining) if m.lined != 0 else pressed)
@@ -96,4 +104,5 @@ def keep_forces(m, count):
         for j in range(count):
             k = c.listed[j]
             wear_bar(m, k, c.bar[k], c.wear[k])
+    set_friction_force(m)
     return any_pressed != 0

@@ -1,13 +1,10 @@
 """Tables of the tip's edge, as edge_steps reads them by their addresses."""
 
-from typing import Protocol
-
 import numpy as np
 
 from r37core.machine_code.alignment import LANES, NUMBER_BYTES, address_of, aligned_zeros, padded
 
 from ..problem import Problem
-from .layout import Kind
 
 FEW = 16
 """Nodes that every step with contact forces looks at: by a cosine along the edge, as the ends are where it goes deepest."""
@@ -16,23 +13,15 @@ DEEPER = 0.1
 """How much deeper the edge may go than every contact node, as a share of the tip's length."""
 
 
-class LanesOfModes(Protocol):
-    """Lanes of a laid-out problem: how many, and which of them are of its modes and of its products of second order."""
-
-    mode_lanes: int
-    mode_columns: np.ndarray | slice
-    product_columns: slice
-
-
 class EdgeTables:
-    """Tables of the edge of a `problem`, for a program of this `kind`: a few nodes come first, then all, in groups.
+    """Tables of the edge of a `problem`: a few nodes come first, then all, in groups.
 
-    `lanes_of_modes`: where those of the problem's modes and products are among so many.
+    `rows`, shape (directions, nodes, lanes): displacement of the edge's nodes per mode and product. `contact_lanes`: of the
+    contact nodes.
     """
 
-    def __init__(self, problem: Problem, kind: Kind, lanes_of_modes: LanesOfModes):
-        modes = lanes_of_modes.mode_lanes
-        edge, capacity_nodes = problem.edge, padded(len(problem.casing.tip.radius))
+    def __init__(self, problem: Problem, rows: np.ndarray, contact_lanes: int):
+        edge = problem.edge
         nodes = len(edge.casing.tip.radius)
         few = np.rint((nodes - 1) * (0.5 - 0.5 * np.cos(np.pi * np.arange(FEW) / (FEW - 1)))).astype(int)
         # of a short edge the few are all
@@ -40,20 +29,12 @@ class EdgeTables:
         lanes = padded(len(order))
         self._groups = lanes // LANES
         self._few = FEW // LANES if nodes > 2 * FEW else self._groups
-        directions = slice(None) if kind.exact_gap else slice(1)
-        operator = edge.motion.displacement_operator[directions, order]
-        columns = np.zeros((*operator.shape[:2], modes))
-        columns[..., lanes_of_modes.mode_columns] = operator
-        columns[..., lanes_of_modes.product_columns] = edge.motion.product_operator[directions, order]
-        self.rows = aligned_zeros((len(operator), self._groups, modes, LANES))
-        for direction, values in enumerate(columns):
-            self.rows[direction] = _grouped(values, lanes)
-        self.flexibility = aligned_zeros((self._groups, 3 * capacity_nodes, LANES))
+        self.rows = _grouped(rows[:, order], lanes)
+        flexibility = np.zeros((len(order), 3, contact_lanes))
         if edge.flexibility.size:
-            flexibility = edge.flexibility[order].reshape(len(order), 3, -1)
-            room = np.zeros((len(order), 3, capacity_nodes))
-            room[..., : flexibility.shape[-1]] = flexibility
-            self.flexibility[:] = _grouped(room.reshape(len(order), -1), lanes)
+            own = edge.flexibility[order].reshape(len(order), 3, -1)
+            flexibility[..., : own.shape[-1]] = own
+        self.flexibility = _grouped(flexibility.reshape(1, len(order), -1), lanes)
         # a lane that only pads a vector never passes the casing
         self.clearance, self.radius, self.theta = (aligned_zeros((lanes,)) for _ in range(3))
         self.clearance[:] = self.radius[:] = 1.0
@@ -76,17 +57,23 @@ class EdgeTables:
         inner = (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2
         self.shares = np.ascontiguousarray(np.stack([outer[0], *inner, outer[1]], axis=1))
 
-    def put_into(self, record: np.void) -> None:
-        """Put sizes and addresses into the record of the edge."""
-        record["few"], record["groups"], record["near"] = self._few, self._groups, self._near
-        for name in ("rows", "flexibility", "clearance"):
-            record[name] = address_of(getattr(self, name))
-        for name in ("radius", "theta", "table", "steps", "shares"):
-            record[name] = address_of(getattr(self, name), NUMBER_BYTES)
+    @property
+    def fields(self) -> dict[str, float]:
+        """Sizes and addresses of the tables, as the record of the edge has them."""
+        vectors = {name: address_of(getattr(self, name)) for name in ("rows", "flexibility", "clearance")}
+        plain = ("radius", "theta", "table", "steps", "shares")
+        numbers = {name: address_of(getattr(self, name), NUMBER_BYTES) for name in plain}
+        return {"few": self._few, "groups": self._groups, "near": self._near, **vectors, **numbers}
 
 
 def _grouped(values: np.ndarray, lanes: int) -> np.ndarray:
-    """Numbers of nodes, shape (nodes, columns), as groups of eight, shape (groups, columns, 8); padded with zeros."""
-    room = np.zeros((lanes, values.shape[1]))
-    room[: len(values)] = values
-    return room.reshape(-1, LANES, values.shape[1]).swapaxes(1, 2)
+    """Numbers of nodes, shape (directions, nodes, columns), as groups of eight, shape (directions, groups, columns, 8).
+
+    Nodes are padded with zeros.
+    """
+    directions, nodes, columns = values.shape
+    groups = aligned_zeros((directions, lanes // LANES, columns, LANES))
+    padded_nodes = np.zeros((directions, lanes, columns))
+    padded_nodes[:, :nodes] = values
+    groups[:] = padded_nodes.reshape(directions, -1, LANES, columns).swapaxes(2, 3)
+    return groups

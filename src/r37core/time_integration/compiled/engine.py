@@ -14,7 +14,7 @@ from ..integration_choice import MARKED, revolutions_at_once
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
-from .laid_out import LaidOutProblem
+from .laid_out import LaidOutProblem, put
 from .layout import NORMAL, TANGENTIAL, Capacity, Kind
 
 _COMPILED = ("contact_steps", "edge_steps", "layout", "quadratic_steps", "segment_steps", "program", "steps")
@@ -31,10 +31,10 @@ SOURCES = Sources(
 
 
 class CompiledEngine(LaidOutProblem):
-    """The time integration of one problem, compiled for what its scene has; `before`, `beside`: see LaidOutProblem."""
+    """The time integration of one problem, compiled for what its scene has; `beside`: see LaidOutProblem."""
 
-    def __init__(self, problem: Problem, segments: Segments, before: Self | None = None, beside: Self | None = None):
-        super().__init__(problem, segments, before, beside)
+    def __init__(self, problem: Problem, segments: Segments, beside: Self | None = None):
+        super().__init__(problem, segments, beside)
         self._advance = _program(self.capacity, self.kind)
 
     def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule | None = None) -> int:
@@ -57,8 +57,7 @@ class Passage:
     """Blocks of steps from a `state` on, as a `schedule` says, with samples and snapshots into `out`; `done`: how many.
 
     The run starts so many samples after the blade has last `passed` angle 0, and `late`, a share of a sample, after time 0.
-    The state is laid into the record once, and read at the `end`. Without a schedule it goes on in parts at the first speed,
-    and the largest wear is not kept: other blades wear the lining.
+    The state is laid into the record once, and read at the `end`. Without a schedule it goes on in parts at the first speed.
     """
 
     def __init__(
@@ -74,34 +73,34 @@ class Passage:
         self._schedule = schedule or Schedule([0], [0], len(state.displacement))
         self._grid, self._passed = engine.problem.grid, passed
         # where nothing pads the vectors the program writes into `out` itself
-        padded = out.snapshots.shape[1] != engine.snapshot_width or not isinstance(engine.mode_columns, slice)
-        self._snapshots = np.empty((len(out.snapshots), engine.snapshot_width)) if padded else out.snapshots
+        width = engine.mode_lanes + (0 if engine.kind.published else 3 * engine.node_lanes)
+        plain = np.array_equal(engine.snapshot_columns, np.arange(width))
+        self._snapshots = out.snapshots if plain else np.empty((len(out.snapshots), width))
         self._ends = np.empty((*self._schedule.ends.shape[:-1], engine.mode_lanes))
         self.done = 0
-        m = engine.record[0]
-        engine.put_modes(u=state.displacement, increment=state.increment)
-        largest_wear = 0.0 if schedule is None else state.wear.max(initial=0.0)
-        engine.put(worn=0.0, largest_wear=largest_wear, touched=np.packbits(state.touched, bitorder="little"))
-        engine.put(totals=state.totals, penetration=state.penetration, last_position=state.bar_position)
+        put(engine.record, u=engine.in_lanes(state.displacement), increment=engine.in_lanes(state.increment))
+        touched = np.packbits(state.touched, bitorder="little")
+        put(engine.record, worn=0.0, largest_wear=state.wear.max(initial=0.0), touched=touched)
+        put(engine.record, totals=state.totals, penetration=state.penetration, last_position=state.bar_position)
         if self._grid.choice.second_order:
-            engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
+            normal = state.contact_force[NORMAL]
+            put(engine.record, force=normal, friction_force=state.contact_force[TANGENTIAL:], follows=np.any(normal < 0.0))
         self._openings = engine.problem.casing.opening(state.samples + np.arange(len(out.samples)))
-        addresses = {
+        arrays = {
             "speed_indices": self._schedule.speed_indices,
             "lasting": self._schedule.samples,
             "ends": self._ends,
-            "worn": None if schedule is None else schedule.wear,
+            "worn": self._schedule.wear,
             "wear": state.wear,
+            "openings": self._openings,
             "samples": out.samples,
             "snapshots": self._snapshots,
+            "constants": engine.constants,
         }
-        for name, array in addresses.items():
-            m["call"][name] = 0 if array is None else address_of(array, NUMBER_BYTES)
-        m["call"]["constants"] = address_of(engine.constants)
-        self._samples_at, self._snapshots_at = int(m["call"]["samples"]), int(m["call"]["snapshots"])
+        addresses = {name: address_of(array, NUMBER_BYTES) for name, array in arrays.items()}
+        put(engine.record["call"], **addresses, ahead=(late - passed) * self._grid.steps_per_sample)
         # steps are counted from the last pass of angle 0 on
-        m["samples_before_snapshots"] = self._grid.samples_before_snapshots + passed
-        m["call"]["ahead"] = (late - passed) * self._grid.steps_per_sample
+        put(engine.record, samples_before_snapshots=self._grid.samples_before_snapshots + passed)
 
     def blocks_at_once(self, blades: int) -> int:
         """Blocks of one call in which so many blades go on: about STEPS_AT_ONCE up to the end of a revolution, at most MARKED.
@@ -116,14 +115,10 @@ class Passage:
 
     def ask(self, blocks: int) -> None:
         """Have the record say that so many more are to be done."""
-        call, first = self.engine.record[0]["call"], self._state.samples
-        call["first_step"] = (first + self._passed + self.done) * self._grid.steps_per_sample
-        call["blocks"] = blocks
-        call["openings"] = address_of(self._openings, NUMBER_BYTES) + self.done * NUMBER_BYTES
-        if self.done:
-            kept = self._grid.snapshots_after(first + self.done) - self._grid.snapshots_after(first)
-            call["samples"] = self._samples_at + self.done * self._out.samples.strides[0]
-            call["snapshots"] = self._snapshots_at + kept * self._snapshots.strides[0]
+        grid, first = self._grid, self._state.samples
+        step = (first + self._passed + self.done) * grid.steps_per_sample
+        kept = grid.snapshots_after(first + self.done) - grid.snapshots_after(first)
+        put(self.engine.record["call"], first_step=step, blocks=blocks, done=self.done, kept=kept)
         if self._in_parts:
             self._schedule.samples[0] = blocks
 
@@ -140,7 +135,7 @@ class Passage:
     def end(self) -> None:
         """Read the state that is reached, but for the number of samples."""
         engine, state, m = self.engine, self._state, self.engine.record[0]
-        modes, nodes, columns = engine.mode_lanes, len(state.touched), engine.mode_columns
+        nodes, columns = len(state.touched), engine.mode_columns
         state.displacement[:], state.increment[:] = m["u"][columns], m["increment"][columns]
         self._schedule.ends[:] = self._ends[..., columns]
         state.touched[:] = np.unpackbits(m["touched"].astype(np.uint8), bitorder="little")[:nodes]
@@ -149,17 +144,8 @@ class Passage:
         if self._grid.choice.second_order:
             state.contact_force[NORMAL] = m["force"][:nodes]
             state.contact_force[TANGENTIAL:] = m["friction_force"][:, :nodes]
-        snapshots, out = self._snapshots, self._out.snapshots
-        if snapshots is out:
-            return
-        kept = len(state.displacement)
-        out[:, :kept] = snapshots[:, :modes][:, columns]
-        products = snapshots[:, engine.product_columns]
-        out[:, kept : kept + products.shape[1]] = products
-        kept += products.shape[1]
-        if self._grid.choice.second_order:
-            forces = snapshots[:, modes:].reshape(len(snapshots), 3, (snapshots.shape[1] - modes) // 3)
-            out[:, kept:] = forces[:, :, :nodes].reshape(len(snapshots), 3 * nodes)
+        if self._snapshots is not self._out.snapshots:
+            self._out.snapshots[:] = self._snapshots[:, engine.snapshot_columns]
 
 
 def go_on(passages: Sequence[Passage], blocks: int) -> None:

@@ -159,8 +159,8 @@ EDGE = aligned_record(
 """The tip's edge: see edge_steps. Without groups it is not looked at."""
 
 CALL = aligned_record(
-    # where it begins, how many blocks of steps it asks for, and the speed it is at
-    _fields("first_step blocks speed_index", kind=np.int64),
+    # where it begins, how many blocks of steps it asks for, and the speed it is at; blocks that were done and snapshots kept
+    _fields("first_step blocks speed_index done kept", kind=np.int64),
     # how many steps the time is ahead of their number
     _fields("ahead"),
     # addresses of arrays whose sizes are known only then: f(theta) at every step

@@ -15,7 +15,7 @@ A step follows docs/simulation.md. Equations in the order of that page, and the 
 | ... + c F, work and loss | steps.push_lanes; F = phi^T f of the nodes: steps.sum_pushes |
 | Directions: n, y, m | contact.casing.casing_axes; sums over modes: steps.displaced |
 | Gap: c0 - A (1 - e^(-rho t)) f - n | steps.measure_gaps; f at every step: contact.laws.lobe_shape |
-| ... exact | steps.measure_exact_gaps, contact.laws.displaced_position |
+| ... exact | steps._measure_exact_gaps, contact.laws.displaced_position |
 | Friction: -mu N v/|v| | contact.laws.friction_direction, steps.set_friction |
 | Direct contact, at t_n | contact.node_forces.settle_forces |
 | ... for q_{n+1} | steps.press_casing, contact.node_forces.settle_forces |
@@ -39,21 +39,22 @@ from r37core.machine_code.program_constants import specialised
 
 from .contact_steps import press_contact, release_contact
 from .edge_steps import measure_edge
-from .layout import EXACT_GAP, PUBLISHED, Capacity, Kind, integration_record
+from .layout import PUBLISHED, Capacity, Kind, integration_record
 from .quadratic_steps import begin_quadratic, follow_quadratic, push_quadratic
 from .segment_steps import begin_segment, end_segment
 from .steps import (
+    first_of_casing,
     follow_gaps,
     leave_casing,
-    list_pressed,
-    measure_exact_gaps,
     measure_gaps,
-    meet,
     mode_lanes,
     node_lanes,
     predict,
+    press_casing,
+    press_lining,
     push_lanes,
     record,
+    set_friction_force,
     sum_pushes,
     take_gaps,
     turn_step,
@@ -70,37 +71,25 @@ def _begin_segment(addresses, blades, segment):
 
 
 @inlined
-def _find_forces(addresses, blades):
-    """Set in each record whether its blade has forces at t_n, which the next step follows; returns whether any has."""
-    any_forces = False
-    for b in range(blades):
-        m = pointed_at(addresses[b])
-        m.follows = int(list_pressed(m) > 0)
-        any_forces |= m.follows != 0
-    return any_forces
+def _begin_part(addresses, blades, place, lobes):
+    """Find what follows from the motion at t_n, so that a run that was stopped here goes on with the same bits.
 
-
-@inlined
-def _any_pressing(addresses, blades):
-    """True where any node of the blades is beyond the unworn lining at t_n."""
+    Where no node has a force or is beyond the unworn lining, its gaps may have been those at another speed.
+    """
     any_pressing = False
     for b in range(blades):
         m = pointed_at(addresses[b])
+        if m.quadratic != 0:
+            begin_quadratic(m)
+        any_pressing |= m.follows != 0
         for g in range(0, node_lanes(m), LANES):
             any_pressing |= bits_of(load(m.penetration, g) > 0.0) != 0
-    return any_pressing
-
-
-@inlined
-def _measure(addresses, blades, place, lobes):
-    """Take the gaps at t_n of blades that have no forces."""
-    for b in range(blades):
-        m = pointed_at(addresses[b])
-        if EXACT_GAP:
-            measure_exact_gaps(m, place, lobes)
-        else:
-            measure_gaps(m, place, lobes)
-        take_gaps(m, m.contact.gap, place)
+    if not any_pressing:
+        for b in range(blades):
+            m = pointed_at(addresses[b])
+            if m.lined != 0:
+                measure_gaps(m, place, lobes)
+                take_gaps(m, m.contact.gap, place)
 
 
 @inlined
@@ -118,7 +107,7 @@ def _fly(addresses, blades):
     pushed = False
     for b in range(blades):
         m = pointed_at(addresses[b])
-        store(m.block_energy, (1, 0), predict(m, load(m.block_energy, (1, 0))))
+        predict(m)
         if not PUBLISHED and m.follows != 0:
             sum_pushes(m)
             pushed = True
@@ -126,11 +115,6 @@ def _fly(addresses, blades):
             push_quadratic(m)
             pushed = True
     return pushed
-
-
-@inlined
-def _first_of_casing(m):
-    return mode_lanes(m) - 2 * m.pairs
 
 
 @inlined
@@ -142,18 +126,17 @@ def _share_pushes(addresses, blades):
         for b in range(blades):
             m = pointed_at(addresses[b])
             if m.follows != 0:
-                total += load(m.push, _first_of_casing(m) + i)
+                total += load(m.push, first_of_casing(m) + i)
         for b in range(blades):
             m = pointed_at(addresses[b])
-            store(m.push, _first_of_casing(m) + i, total)
+            store(m.push, first_of_casing(m) + i, total)
 
 
 @inlined
 def _push(m, counted):
     """Push a blade and the casing, whose work is `counted` with one of them."""
-    work, lost, casing = load(m.block_energy, (0, 0)), load(m.block_energy, (1, 0)), _first_of_casing(m)
-    if m.quadratic != 0 or m.follows != 0:
-        work, lost = push_lanes(m, 0, casing, work, lost)
+    work, lost, casing = load(m.block_energy, (0, 0)), load(m.block_energy, (1, 0)), first_of_casing(m)
+    work, lost = push_lanes(m, 0, casing, work, lost)
     work_of_both, lost_of_both = push_lanes(m, casing, mode_lanes(m), work, lost)
     if counted:
         work, lost = work_of_both, lost_of_both
@@ -166,7 +149,7 @@ def _push(m, counted):
 @inlined
 def _meet(m, place, lobes):
     """The forces on a blade after a step."""
-    beyond = measure_exact_gaps(m, place, lobes) if EXACT_GAP else measure_gaps(m, place, lobes)
+    beyond = measure_gaps(m, place, lobes)
     if PUBLISHED:
         _correct(m, beyond, place)
     else:
@@ -181,12 +164,18 @@ def _correct(m, beyond, place):
     if m.lined != 0:
         # before the forces open the gaps
         follow_gaps(m, m.contact.gap, place)
-    if beyond:
-        work, lost = meet(m, place, load(m.block_energy, (0, 0)), load(m.block_energy, (1, 0)))
-        store(m.block_energy, (0, 0), work)
-        store(m.block_energy, (1, 0), lost)
+    if not beyond:
+        leave_casing(m)
+        return
+    for g in range(0, node_lanes(m), LANES):
+        store(m.force, g, 0.0)
+    if m.lined == 0 or press_lining(m, place):
+        press_casing(m)
     else:
         leave_casing(m)
+    set_friction_force(m)
+    if sum_pushes(m):
+        _push(m, True)
 
 
 @inlined
@@ -195,13 +184,8 @@ def _press(m, beyond, place):
     if beyond:
         m.follows = int(press_contact(m, place))
     else:
-        if m.follows != 0:
-            release_contact(m)
-            m.follows = 0
-        else:
-            leave_casing(m)
-        for g in range(0, node_lanes(m), LANES):
-            store(m.contact.opened, g, load(m.contact.gap, g))
+        release_contact(m)
+        m.follows = 0
     if m.lined != 0:
         follow_gaps(m, m.contact.opened, place)
 
@@ -215,7 +199,7 @@ def _end_block(addresses, blades, block, row):
         m.totals.work += 0.5 * sum_of_lanes(load(m.block_energy, (0, 0)))
         m.totals.loss += sum_of_lanes(load(m.block_energy, (1, 0)))
         m.totals.steps += m.steps_per_block
-        within &= record(m, block, row, m.follows != 0)
+        within &= record(m, block, row)
     return within
 
 
@@ -228,9 +212,9 @@ def _integrate(addresses, blades):
     steps_per_block = first.steps_per_block
     # any integer for numba: what it gives a plain 0 to is compiled for just that, too
     zero = int(np.int64(0))
-    # whether the gaps at t_n are known
-    within, measured = True, False
-    done = kept = segment = until = zero
+    within = True
+    done = segment = until = zero
+    kept = first.call.kept
     first_block = first.call.first_step // steps_per_block
     place = first.call.first_step % first.steps_per_revolution
     while done < first.call.blocks and within:
@@ -239,18 +223,9 @@ def _integrate(addresses, blades):
             until += _begin_segment(addresses, blades, segment)
         start = first.call.first_step + done * steps_per_block
         remaining = 0.0 if immediate else np.exp(-first.casing.rise * (start + first.call.ahead))
+        _begin_block(addresses, blades, first.call.done + done)
         if place == 0 or begins:
-            # so that a run stopped after a revolution goes on with the same bits
-            if first.quadratic != 0:
-                for b in range(blades):
-                    begin_quadratic(pointed_at(addresses[b]))
-            any_forces = not PUBLISHED and _find_forces(addresses, blades)
-            if first.lined != 0:
-                measured = any_forces or _any_pressing(addresses, blades)
-        _begin_block(addresses, blades, done)
-        if first.lined != 0 and not measured:
-            _measure(addresses, blades, place, first.casing.amplitude * (1.0 - remaining))
-            measured = True
+            _begin_part(addresses, blades, place, first.casing.amplitude * (1.0 - remaining))
         for position in range(place + 1, place + steps_per_block + 1):
             remaining *= decay
             here = position if position < first.steps_per_revolution else 0
@@ -268,7 +243,7 @@ def _integrate(addresses, blades):
         # of the samples from the first snapshot's revolution on, every so many-th
         due = first_block + done + 1 - first.samples_before_snapshots
         taken = first.samples_per_snapshot > 0 and due > 0 and due % first.samples_per_snapshot == 0
-        within = _end_block(addresses, blades, done, kept if taken else -1)
+        within = _end_block(addresses, blades, first.call.done + done, kept if taken else -1)
         kept += taken
         done += 1
         # counted on, not divided: a block may have two steps

@@ -36,10 +36,9 @@ def take_speed(m, index):
 
 @inlined
 def end_segment(m, segment):
-    """Keep how the motion ends a segment and, where it is asked for, the largest wear by then."""
+    """Keep how the motion ends a segment, and the largest wear by then."""
     put_motion(m, 2 * segment + 1)
-    if m.call.worn != 0:
-        numbers_at(m.call.worn)[segment] = m.largest_wear
+    numbers_at(m.call.worn)[segment] = m.largest_wear
 
 
 @inlined

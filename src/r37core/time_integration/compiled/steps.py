@@ -54,6 +54,18 @@ def node_lanes(m):
 
 
 @inlined
+def first_of_casing(m):
+    """The lane of the first mode of the casing."""
+    return mode_lanes(m) - 2 * m.pairs
+
+
+@inlined
+def nodes_from(m, g):
+    """Bits of those of the eight lanes from g on that are nodes."""
+    return (1 << min(m.nodes - g, LANES)) - 1
+
+
+@inlined
 def along(rows, direction, modal, g, used):
     """Displacement in a direction of the eight nodes from g on, by the first `used` modes; `rows`: displacement_operator."""
     s = t = u = v = w = x = y = z = spread(0.0)
@@ -80,8 +92,9 @@ def displaced(m, direction, g):
 
 
 @inlined
-def predict(m, lost):
-    """The free step of every mode; returns `lost` and the energy it loses, in lanes."""
+def predict(m):
+    """The free step of every mode, and the energy it loses."""
+    lost = load(m.block_energy, (1, 0))
     for i in range(0, mode_lanes(m), LANES):
         u, last, keep, pull = load(m.u, i), load(m.increment, i), load(m.speed.keep, i), load(m.speed.pull, i)
         d = keep * last - pull * u
@@ -89,7 +102,7 @@ def predict(m, lost):
         store(m.increment, i, d)
         store(m.u, i, u + d)
         lost += load(m.speed.loss, i) * ((d + last) * (d + last))
-    return lost
+    store(m.block_energy, (1, 0), lost)
 
 
 @inlined
@@ -157,14 +170,6 @@ def push_modes(m, i, push, work, lost):
 
 
 @inlined
-def push_blade(m, work, lost):
-    """Correct displacement and increment for the forces; adds the work, doubled, and the energy lost."""
-    if sum_pushes(m):
-        work, lost = push_lanes(m, 0, mode_lanes(m), work, lost)
-    return work, lost
-
-
-@inlined
 def turn_step(m):
     """Write the pairs of the casing's modes in the rotor's frame after a step, which has turned on."""
     _turn(m, m.u)
@@ -174,8 +179,7 @@ def turn_step(m):
 
 @inlined
 def _turn(m, amplitudes):
-    pairs = m.pairs
-    first = mode_lanes(m) - 2 * pairs
+    pairs, first = m.pairs, first_of_casing(m)
     for j in range(0, pairs, LANES):
         cosine, sine = load(m.turn_cosine, j), load(m.turn_sine, j)
         c, s = load(amplitudes, first + j), load(amplitudes, first + pairs + j)
@@ -187,20 +191,7 @@ def _turn(m, amplitudes):
 
 
 @inlined
-def measure_gaps(m, place, lobes):
-    """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
-    shape = numbers_at(m.call.casing_shape)
-    any_beyond = 0
-    for g in range(0, node_lanes(m), LANES):
-        normal = displaced(m, NORMAL, g)
-        gap = load(m.speed.clearance, g) + m.opening - lobes * load(shape, place * node_lanes(m) + g) - normal
-        store(m.contact.gap, g, gap)
-        any_beyond |= bits_of(gap < 0.0)
-    return any_beyond != 0
-
-
-@inlined
-def measure_exact_gaps(m, place, lobes):
+def _measure_exact_gaps(m, place, lobes):
     """Gaps between the displaced nodes and the lobed cone: see r37core.contact.casing. Whether any is passed."""
     turned = place * (2.0 * np.pi / m.steps_per_revolution)
     c, casing, any_beyond = m.contact, m.casing, False
@@ -219,18 +210,22 @@ def measure_exact_gaps(m, place, lobes):
     return any_beyond
 
 
-# Friction
-
-
 @inlined
-def set_friction(m, g, tangential, meridional):
-    """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
-    # a normal force is negative
-    tangential += load(m.sliding, (0, g))
-    along_tangent, along_meridian = _friction_direction(tangential, meridional, -m.friction)
-    store(m.sliding, (1, g), np.sqrt(tangential * tangential + meridional * meridional))
-    store(m.friction_share, (0, g), along_tangent)
-    store(m.friction_share, (1, g), along_meridian)
+def measure_gaps(m, place, lobes):
+    """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
+    if EXACT_GAP:
+        return _measure_exact_gaps(m, place, lobes)
+    shape = numbers_at(m.call.casing_shape)
+    any_beyond = 0
+    for g in range(0, node_lanes(m), LANES):
+        normal = displaced(m, NORMAL, g)
+        gap = load(m.speed.clearance, g) + m.opening - lobes * load(shape, place * node_lanes(m) + g) - normal
+        store(m.contact.gap, g, gap)
+        any_beyond |= bits_of(gap < 0.0)
+    return any_beyond != 0
+
+
+# Friction
 
 
 @inlined
@@ -254,7 +249,12 @@ def set_friction_of_listed(m, listed, count):
                 # put into lanes here: loading together what was stored one by one stalls the processor
                 tangential = np.where(flag_at(k - g), sum_of_lanes(t), tangential)
                 meridional = np.where(flag_at(k - g), sum_of_lanes(r), meridional)
-        set_friction(m, g, tangential, meridional)
+        tangential += load(m.sliding, (0, g))
+        # a normal force is negative
+        along_tangent, along_meridian = _friction_direction(tangential, meridional, -m.friction)
+        store(m.sliding, (1, g), np.sqrt(tangential * tangential + meridional * meridional))
+        store(m.friction_share, (0, g), along_tangent)
+        store(m.friction_share, (1, g), along_meridian)
 
 
 @inlined
@@ -269,18 +269,12 @@ def friction_response(m, table, k, g):
 
 @inlined
 def set_friction_force(m):
-    """Friction of the forces on all nodes."""
+    """Friction of the forces on all nodes, and its work against their sliding in this step."""
     for g in range(0, node_lanes(m), LANES):
         normal = load(m.force, g)
         store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
         store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
-        heat(m, g, normal)
-
-
-@inlined
-def heat(m, g, normal):
-    """Add the work of the friction of `normal` forces on the nodes from g on, against their sliding in this step."""
-    m.totals.friction_heat -= m.friction * sum_of_lanes(normal * load(m.sliding, (1, g)))
+        m.totals.friction_heat -= m.friction * sum_of_lanes(normal * load(m.sliding, (1, g)))
 
 
 @inlined
@@ -308,7 +302,7 @@ def largest_gap(m):
     largest = 0.0
     for g in range(0, node_lanes(m), LANES):
         # of the lanes of nodes; NaN does not count
-        size = np.where(flags_of((1 << min(m.nodes - g, LANES)) - 1), np.abs(load(m.contact.gap, g)), 0.0)
+        size = np.where(flags_of(nodes_from(m, g)), np.abs(load(m.contact.gap, g)), 0.0)
         largest = max(largest, largest_of_lanes(np.where(size > 0.0, size, 0.0)))
     return largest
 
@@ -321,7 +315,7 @@ def press_casing(m):
     """Add the forces of direct contact, keep the set of touching nodes."""
     c = m.contact
     for g in range(0, node_lanes(m), LANES):
-        c.found[g // LANES] = (1 << min(m.nodes - g, LANES)) - 1
+        c.found[g // LANES] = nodes_from(m, g)
         store(c.pressure, g, 0.0)
     # the others' reaction may bring any of them to the casing
     for k in range(m.nodes):
@@ -411,12 +405,7 @@ def bar_position(m, k, turned):
 def bar_number(m, k, position):
     """The number of the bar of a node's ring at an angle in bars, counted over all rings."""
     bars = int(m.lining.bars)
-    bar = int(np.floor(position))
-    while bar < 0:
-        bar += bars
-    while bar >= bars:
-        bar -= bars
-    return bar + k * bars
+    return int(np.floor(position)) % bars + k * bars
 
 
 @inlined
@@ -515,28 +504,12 @@ def take_gaps(m, gaps, place):
             m.last_position[k] = bar_position(m, k, turned_bars(m, place))
 
 
-# A published step in contact, and what is kept
+# Record
 
 
 @inlined
-def meet(m, place, work, lost):
-    """Do a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
-    for g in range(0, node_lanes(m), LANES):
-        store(m.force, g, 0.0)
-    if m.lined == 0 or press_lining(m, place):
-        press_casing(m)
-    else:
-        leave_casing(m)
-    set_friction_force(m)
-    return push_blade(m, work, lost)
-
-
-@inlined
-def record(m, block, row, pressed):
-    """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit.
-
-    `pressed`: whether there are forces, which the static modes follow.
-    """
+def record(m, block, row):
+    """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit."""
     samples, snapshots = numbers_at(m.call.samples), numbers_at(m.call.snapshots)
     outputs, modes, nodes = m.number_of_outputs, mode_lanes(m), node_lanes(m)
     if not PUBLISHED:
@@ -547,7 +520,8 @@ def record(m, block, row, pressed):
     beyond = 0
     for g in range(0, outputs, LANES):
         total = along(m.outputs, 0, m.u, g, modes)
-        if not PUBLISHED and pressed:
+        if not PUBLISHED and m.follows != 0:
+            # the static modes follow the forces
             total += along(m.force_outputs, 0, m.static_force, g, 3 * nodes)
         store(m.sample, g, total)
         # written so that NaN fails as well
