@@ -11,7 +11,7 @@ from numba import types
 from r37core.machine_code.alignment import LANES, aligned_record, aligned_zeros
 from r37core.machine_code.lanes import OPTIONS, inlined, load, store
 from r37core.machine_code.program_constants import specialised
-from r37core.time_integration.compiled import program, steps
+from r37core.time_integration.compiled import program
 from r37core.time_integration.compiled.layout import Kind, capacity_of
 
 FORMULAS = {
@@ -123,4 +123,4 @@ def test_the_steps_know_every_constant_of_a_kind_by_its_name():
     constants = Kind(published=True, exact_gap=True).constants
     for name in constants:
         other = constants | {name: not constants[name]}
-        assert specialised(steps.meet, constants) is not specialised(steps.meet, other), name
+        assert specialised(program._integrate, constants) is not specialised(program._integrate, other), name

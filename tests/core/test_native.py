@@ -22,7 +22,7 @@ from r37core.machine_code import kept, native
 from r37core.machine_code.alignment import LANES, NUMBER_BYTES, address_of, aligned_zeros
 from r37core.machine_code.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 from r37core.time_integration.compiled import engine as compiled
-from r37core.time_integration.compiled.layout import MODAL_ROWS, Kind, capacity_of, constants_record, integration_record
+from r37core.time_integration.compiled.layout import Kind, capacity_of, integration_record
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS
 from r37core.time_integration.simulate import Simulation
 
@@ -260,23 +260,13 @@ def records(kind):
 def test_no_record_has_more_than_60_fields_and_its_arrays_are_aligned_and_apart():
     """A record inside of one is one field of it."""
     sizes = [len(kind.names) for kind in records(integration_record(capacity_of(1, 1)))]
-    assert len(sizes) == 10
+    assert len(sizes) == 9
     assert max(sizes) <= 60
     for kind in records(integration_record(capacity_of(88, 9))):
         places = sorted((offset, offset + field.itemsize) for field, offset in kind.fields.values())
         assert all(end <= start for (_, end), (start, _) in pairwise(places))
         for name, (field, offset) in kind.fields.items():
             assert offset % (64 if field.shape or field.names else 8) == 0, name
-
-
-def test_constants_of_a_speed_begin_with_its_rows_of_modes():
-    """As they are copied from a table of constants, whose rows are as long as there are modes."""
-    of_nodes = ("coupling", "clearance")
-    for modes in (8, 40, 96):
-        kind = constants_record(modes, 8)
-        of_modes = [name for name in kind.names if kind[name].shape[-1] == modes and name not in of_nodes]
-        assert list(kind.names[: len(of_modes)]) == of_modes
-        assert kind.fields[kind.names[len(of_modes)]][1] == 8 * MODAL_ROWS * modes
 
 
 def test_kinds_are_few_and_told_apart():
