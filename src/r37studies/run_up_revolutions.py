@@ -79,7 +79,7 @@ def record_run_up(
             largest, damage = largest_damage(stress, all_cycles[run_up.before * per_revolution :], strengths)
         numbers |= {"largest_stress_range": largest, "miner_sum": damage}
         count = len(arrays["speed"])
-        whole = all_cycles[: count * per_revolution].reshape(count, per_revolution, -1)
+        whole = all_cycles[: count * per_revolution].reshape(count, per_revolution, all_cycles.shape[1])
         arrays["goodman_share"] = goodman_shares(stress, whole, strengths)
     if "energy" in results:
         numbers |= {**integration.balance, "stiffness_work": integration.stiffness_work}

@@ -75,16 +75,6 @@ def test_members_with_equal_blades_share_their_model(members):
     assert first.task != second.task
 
 
-def test_members_keep_no_history_of_the_stress(members):
-    settings = members()[1]
-    history = settings.scene_designs.entries["abradable"].model_copy(update={"stress_history_speeds_rad_s": [900.0]})
-    settings = with_scene(settings, "abradable", history)
-    nominal = Sweep(settings).task(of(**vars(REF), speed="900"))
-    tasks = nominal, sweeps_of(Tolerances(settings))["0"].task_at(900.0)
-    kept = [json.loads(task)["choice"]["snapshot_revolutions"] for task in tasks]
-    assert kept == [settings.scenes["abradable"].revolutions, settings.scenes["abradable"].revolutions // 2]
-
-
 def test_run_ups_are_planned_like_speeds(root):
     """Of chosen blades, families among them, and scenes; from the Campbell diagram where they are about a crossing of it."""
     crossing = {"mode": "1B", "engine_order": 4, "first": -0.02, "last": 0.08}

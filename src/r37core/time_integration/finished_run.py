@@ -39,6 +39,11 @@ class FinishedRun:
         samples = {place: len(part.samples) for place, part in enumerate(self.records) if part.diverged}
         return min(samples, key=samples.__getitem__, default=None)
 
+    @property
+    def kept_revolutions(self) -> int:
+        """Revolutions of what is kept: those done, and after an early divergence as many as the statistic has."""
+        return max(self.ending.revolutions, self.problem.choice.revolutions_in_statistic)
+
     def leader(self, statistic: Sequence[np.ndarray]) -> int:
         """Place of the blade whose spectrum is kept, by the displacement (m) of each in the statistic, see numbers_of_run."""
         return 0

@@ -235,7 +235,7 @@ def _so_far(run: FinishedRun) -> dict[str, Any]:
     Between two marks of the totals the heat is a straight line, all else what it is at the later one. `friction_power`: the
     largest mean over HEATED revolutions, or over a shorter run.
     """
-    problem, shape = run.problem, (len(run.states), run.ending.revolutions)
+    problem, shape = run.problem, (len(run.states), run.kept_revolutions)
     forces, heats, bounded = (np.full(shape, np.nan) for _ in range(3))
     for blade, state in enumerate(run.states):
         samples, totals = zip((0, np.zeros((), TOTALS)), *(state.marks or [(state.samples, state.totals)]), strict=True)

@@ -80,7 +80,7 @@ def numbers_of_run(
     edge_is_known = len(model.edge.theta) > len(model.theta)
     totals = np.array([state.totals for state in run.states])
     # a run that diverges early ends before the statistic is full, which keeps its shape
-    per_revolution, revolutions = choice.samples_per_revolution, max(run.ending.revolutions, choice.revolutions_in_statistic)
+    per_revolution, revolutions = choice.samples_per_revolution, run.kept_revolutions
     first = revolutions - choice.revolutions_in_statistic
     count, shape = revolutions * per_revolution, (-1, len(TIP_POINTS), len(DIRECTIONS))
     samples = [kept_numbers.whole(part.samples.reshape(shape), count, part.diverged) for part in run.records]
@@ -104,7 +104,7 @@ def numbers_of_run(
         # as far as a run got that diverged
         numbers["peak_share_of_height"] = np.max(reached, where=np.isfinite(reached), initial=0.0) / model.quadratic.height
         numbers["share_of_height_limit"] = model.quadratic.share_within(PATH_ERROR * scene.casing.clearance)
-        numbers["revolution_share_of_height"] = reached[: run.ending.revolutions].max(axis=(1, 2)) / model.quadratic.height
+        numbers["revolution_share_of_height"] = reached[:revolutions].max(axis=(1, 2)) / model.quadratic.height
     numbers |= kept_numbers.limit_numbers(run, totals)
     numbers |= ending_numbers(run, samples)
     if scene.rotor is None:
