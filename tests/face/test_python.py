@@ -349,7 +349,7 @@ for before in sys.argv[1:]:
         exec(before)
         import matplotlib, r37
         rms = {f"rms_{name}": (("speed", "tip_point"), numpy.ones((2, 1))) for name in ("normal", "tangential")}
-        rms["status"] = ("speed", [0, 0])
+        rms |= {"status": ("speed", [0, 0]), "exit_cause": ("speed", [0, 0]), "exit_revolution": ("speed", 2 * [numpy.nan])}
         r37.plot_response(xarray.Dataset(rms, {"speed": [1.0, 2.0], "tip_point": ["leading_edge"]}))
         print(matplotlib.get_backend().lower(), flush=True)
         os._exit(0)
@@ -380,12 +380,12 @@ def test_plots_are_those_of_the_workflow_and_leave_matplotlib_alone(finished, co
         assert r37.plot_campbell(diagram).axes[0].get_title() == "Campbell diagram, blade Ref"
     assert r37.plot_campbell(campbell, title="mine").axes[0].get_title().endswith("blade mine")
     with_stress = r37.plot_response(response, campbell)
-    assert len(with_stress.axes) == 3 and "dotted" in with_stress.axes[0].get_title()
+    assert len(with_stress.axes) == 4 and "dotted" in with_stress.axes[0].get_title()
     (line,) = (one for one in with_stress.axes[0].lines if one.get_label() == "abradable lining")
     np.testing.assert_allclose(line.get_ydata(), 1e3 * response["rms_normal"].sel(tip_point="leading_edge"))
     part = results["rms"].sel(blade="Ref", scene="direct")
-    assert len(r37.plot_response(part).axes) == 2 and "dotted" not in r37.plot_response(part).axes[0].get_title()
-    assert len(r37.plot_response(response.sel(speed=1150.0)).axes) == 3
+    assert len(r37.plot_response(part).axes) == 3 and "dotted" not in r37.plot_response(part).axes[0].get_title()
+    assert len(r37.plot_response(response.sel(speed=1150.0)).axes) == 4
     assert dict(plt.rcParams) == before
 
 
