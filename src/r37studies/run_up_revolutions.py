@@ -111,9 +111,9 @@ class _Revolutions:
         }
         if self.stress is not None:
             if segments.shapes is not self.shapes:
-                self.shapes, to_reduced = segments.shapes, self.model.to_reduced @ segments.shapes
+                self.shapes, reduced = segments.shapes, self.model.to_reduced @ segments.shapes
                 rotation = np.eye(len(self.model.rotation_stiffening) if self.static_stress else 0)
-                self._to_stressed = block_diag(to_reduced, rotation)
+                self._to_stressed = block_diag(reduced, rotation)
                 self._stress_of_shapes = self.stress.max_von_mises(self._to_stressed.T)
             numbers = segments.snapshots
             if self.static_stress:

@@ -23,11 +23,11 @@ def draw_interference(campbell: xr.Dataset, title: str) -> Figure:
     orders = np.arange(0, 2 * sectors + 1)
     excited = [aliased(int(order), sectors) for order in orders]
     axes.plot(excited, orders * speed / (2.0 * np.pi), color="0.6", linewidth=0.8, label=f"engine orders, {speed:g} rad/s")
-    for at, filled in ((0, False), (-1, True)):
-        every = campbell["disc_frequency"].isel(speed=at)
+    for place, filled in ((0, False), (-1, True)):
+        every = campbell["disc_frequency"].isel(speed=place)
         axes.plot(diameters, every.T, "o", color="0.6", markersize=2.5, markerfacecolor="0.6" if filled else "white", zorder=2)
         for name in NAMED_MODES:
-            colour, family = style.mode_colour(campbell, name), campbell["nodal_frequency"].sel(mode=name).isel(speed=at)
+            colour, family = style.mode_colour(campbell, name), campbell["nodal_frequency"].sel(mode=name).isel(speed=place)
             label = f"{mode_label(name)}" if filled else "_"
             look = {"markersize": 4.0, "markerfacecolor": colour if filled else "white", "zorder": 3}
             axes.plot(diameters, family, "o-", color=colour, linewidth=0.6, label=label, **look)

@@ -170,7 +170,7 @@ def campbell_dataset(
     disc = (
         None if model.disc is None else disc_families(model, np.asarray(speeds, dtype=float), modes, max(modes, _NAMED_AMONG))
     )
-    diagram = campbell_diagram(model, speeds, modes) if disc is None else _at_highest(disc, speeds)
+    diagram = campbell_diagram(model, speeds, modes) if disc is None else _disc_diagram(disc, speeds)
     unstable = np.flatnonzero((diagram.frequencies <= 0.0).any(axis=0))
     if len(unstable):
         raise BucklingError(speeds[unstable[0]])
@@ -196,7 +196,7 @@ def campbell_dataset(
     )
 
 
-def _at_highest(disc: Families, speeds: np.ndarray) -> Campbell:
+def _disc_diagram(disc: Families, speeds: np.ndarray) -> Campbell:
     """The diagram of the highest nodal diameter, where the disc moves least."""
     return Campbell(speeds, disc.names, disc.frequencies[:, -1], disc.shapes.T[:, None], disc.continuity)
 

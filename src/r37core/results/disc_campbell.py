@@ -62,18 +62,18 @@ def disc_families(model: ReducedModel, speeds: np.ndarray, count: int, among: in
     likeness = np.zeros((count, diameters))
     for diameter in range(diameters):
         continuity, followed = np.ones(count), np.empty(0)
-        for at, speed in enumerate(speeds):
+        for place, speed in enumerate(speeds):
             angular, shapes = disc.modes(diameter, speed)
-            assurance = np.abs(shapes.conj().T @ followed) ** 2 if at else disc.assurance(diameter, shapes, reference)
+            assurance = np.abs(shapes.conj().T @ followed) ** 2 if place else disc.assurance(diameter, shapes, reference)
             rows, columns = scipy.optimize.linear_sum_assignment(-assurance[: 2 * among])
             match = rows[np.argsort(columns)]
             values = assurance[match, np.arange(count)]
-            if at:
+            if place:
                 continuity = np.minimum(continuity, values)
             else:
                 likeness[:, diameter] = values
             followed = shapes[:, match]
-            frequencies[:, diameter, at], every[:, diameter, at] = angular[match], angular[:count]
+            frequencies[:, diameter, place], every[:, diameter, place] = angular[match], angular[:count]
     return Families(
         names, frequencies / (2.0 * np.pi), every / (2.0 * np.pi), likeness, disc.highest_modes @ reference, continuity
     )

@@ -25,12 +25,12 @@ class Danger(Outcome):
     DANGEROUS = 2
 
 
-def _declared(limit: str, of: str) -> dict[str, Variable]:
-    """Variables of the events of one limit of the stress, `of` its name in words."""
+def _declared(limit: str, words: str) -> dict[str, Variable]:
+    """Variables of the events of one limit of the stress, `words` its name."""
     return {
-        f"first_{limit}_revolution": Variable(_REGION, "1", f"first revolution above {of}, NaN where there is none"),
-        f"revolutions_above_{limit}": Variable(_REGION, "1", f"number of revolutions above {of}, of all of the run"),
-        f"{limit}_danger": Variable(_REGION, "1", f"whether {of} is passed inside the model's limits", "i1", Danger),
+        f"first_{limit}_revolution": Variable(_REGION, "1", f"first revolution above {words}, NaN where there is none"),
+        f"revolutions_above_{limit}": Variable(_REGION, "1", f"number of revolutions above {words}, of all of the run"),
+        f"{limit}_danger": Variable(_REGION, "1", f"whether {words} is passed inside the model's limits", "i1", Danger),
     }
 
 
@@ -79,16 +79,16 @@ def events_of(history: np.ndarray, limit: float, first: int, exit_revolution: fl
 
 def yield_events(run: Mapping[str, np.ndarray], yield_stress: float, exit_revolution: float) -> dict[str, np.ndarray]:
     """OF_YIELD of a run, by the arrays of its file; yield in Pa."""
-    values = _of_history(run, run["revolution_von_mises"], yield_stress, exit_revolution)
+    values = _history_events(run, run["revolution_von_mises"], yield_stress, exit_revolution)
     return dict(zip(OF_YIELD, values, strict=True))
 
 
 def goodman_events(run: Mapping[str, np.ndarray], strengths: Strengths, exit_revolution: float) -> dict[str, np.ndarray]:
     """OF_GOODMAN of a run, by the arrays of its file."""
-    return dict(zip(OF_GOODMAN, _of_history(run, goodman_history(run, strengths), 1.0, exit_revolution), strict=True))
+    return dict(zip(OF_GOODMAN, _history_events(run, goodman_history(run, strengths), 1.0, exit_revolution), strict=True))
 
 
-def _of_history(
+def _history_events(
     run: Mapping[str, np.ndarray], history: np.ndarray, limit: float, exit_revolution: float
 ) -> tuple[np.ndarray, ...]:
     """Events of a history that has all revolutions, or the last ones, of a run."""

@@ -106,11 +106,11 @@ def _wave(terms: list[sp.csr_array], expansion: sp.csr_array, contact: sp.csr_ar
 
 def _kept(wave: _Wave, reduction: ReductionChoice) -> np.ndarray:
     """The lowest modes at the speeds of the basis, in the modes at rest, without what they have in common."""
-    at_speeds = [
+    speed_vectors = [
         la.eigh(np.diag(wave.squares) + speed**2 * wave.per_square)[1][:, : reduction.fixed_interface_modes]
         for speed in reduction.speeds
     ]
-    left, singular_values, _ = la.svd(np.hstack(at_speeds), full_matrices=False)
+    left, singular_values, _ = la.svd(np.hstack(speed_vectors), full_matrices=False)
     return left[:, singular_values > _CHANGED]
 
 

@@ -126,7 +126,7 @@ def _points(
     if is_spectrum:
         assert constant_speed is not None
         lines = spectrum_amplitudes(numbers[_SPEED], numbers["value"], constant_speed, entry.engine_order)
-        return _of_orders(lines, numbers, entry), ()
+        return _order_points(lines, numbers, entry), ()
     if _TIME in numbers:
         order = np.argsort(numbers[_TIME], kind="stable")
         numbers = {name: part[order] for name, part in numbers.items()}
@@ -268,10 +268,10 @@ def _signal(turns: np.ndarray, numbers: Mapping[str, np.ndarray], entry: Measure
     if entry.quantity in (WORN_DEPTH, TIP_TIMING):
         raise MeasurementError("file", f"found a time signal; allowed for {entry.quantity}: speeds or angles")
     tracked = order_amplitudes(turns, numbers[_SPEED], numbers["value"], entry.engine_order)
-    return _of_orders(tracked, numbers, entry)
+    return _order_points(tracked, numbers, entry)
 
 
-def _of_orders(tracked: OrderAmplitudes, numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:
+def _order_points(tracked: OrderAmplitudes, numbers: Mapping[str, np.ndarray], entry: MeasurementSection) -> Points:
     amplitudes = {"value": tracked.amplitudes.ravel()}
     if "sigma" in numbers:
         # of an amplitude from so many values

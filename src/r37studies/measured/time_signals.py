@@ -80,15 +80,15 @@ def order_amplitudes(turns: np.ndarray, speeds: np.ndarray, values: np.ndarray, 
     groups = np.clip(np.ceil(np.ptp(middles) / middles.mean() / _STEADY), 1, max(min(count // 2, MOST_SPEEDS), 1))
     _, places = np.unique(np.minimum((middles - middles.min()) / width * groups // 1, groups - 1), return_inverse=True)
 
-    def of_groups(part: np.ndarray, middle: Callable[..., np.ndarray] = np.mean) -> np.ndarray:
+    def group_means(part: np.ndarray, middle: Callable[..., np.ndarray] = np.mean) -> np.ndarray:
         return np.array([middle(part[places == group], axis=0) for group in range(places.max() + 1)])
 
-    amplitudes = np.sqrt(np.maximum(of_groups(np.abs(waves) ** 2 - noise[:, None]), 0.0))
+    amplitudes = np.sqrt(np.maximum(group_means(np.abs(waves) ** 2 - noise[:, None]), 0.0))
     largest = amplitudes.max(axis=0)
     orders = np.array([wanted]) if wanted else 1 + np.flatnonzero(largest >= _LEAST_SHARE * largest.max())
     main = int(orders[largest[orders - 1].argmax()])
     strongest = waves[:, main - 1]
-    alike = np.abs(of_groups(strongest)) / np.sqrt(of_groups(np.abs(strongest) ** 2) + 1e-300)
+    alike = np.abs(group_means(strongest)) / np.sqrt(group_means(np.abs(strongest) ** 2) + 1e-300)
     coherence = float(np.median(alike))
     if coherence < _LEAST_COHERENCE and count > 1:
         turn = np.angle(np.sum(strongest[1:] * strongest[:-1].conj())) * count / (2.0 * np.pi * total * main)
@@ -100,7 +100,7 @@ def order_amplitudes(turns: np.ndarray, speeds: np.ndarray, values: np.ndarray, 
     explained = max(1.0 - float(rest.mean() / max(np.var(values), 1e-300)), 0.0)
     remark = f"engine orders explain {explained:.0%} of the signal, coherence {coherence:.2f}"
     samples = np.bincount(places[parts])
-    return OrderAmplitudes(of_groups(middles, np.median), orders, amplitudes[:, orders - 1], samples, remark)
+    return OrderAmplitudes(group_means(middles, np.median), orders, amplitudes[:, orders - 1], samples, remark)
 
 
 def spectrum_amplitudes(

@@ -115,13 +115,13 @@ class SearchDesigns:
             # for messages
             blade = replace(blade, definition=shape.replaced(name=f"{searched}, {FOLDER}/{name}"))
         named = {} if values is None else dict(zip(self.entry.variables, values, strict=True))
-        in_scenes = {}
+        scene_settings = {}
         for scene in self.scenes:
             changed = entry_with(settings.scene_designs.entries[scene], self.scene_changes(scene, named)).scene()
             results = tuple(result for result in settings.results_of(searched, scene) if result in _KEPT)
             chosen = replace(settings.scenes[scene], scene=changed, results=results, stress_history_speeds=())
-            in_scenes[scene] = varied_settings(settings, {searched: blade}, {scene: chosen})
-        return in_scenes
+            scene_settings[scene] = varied_settings(settings, {searched: blade}, {scene: chosen})
+        return scene_settings
 
 
 def start_value(entry: ShapeKeys, key: str) -> float | None:

@@ -89,13 +89,13 @@ class Evaluation:
 
     def runs(self, name: str, values: Sequence[float] | None) -> DesignRuns:
         """Runs of a design. Raises ConfigError and ImpossibleValueError for one that is impossible."""
-        in_scenes, blade = designs_of(self.settings).design_settings(name, values), self._blade
-        first = next(iter(in_scenes.values()))
+        scene_settings, blade = designs_of(self.settings).design_settings(name, values), self._blade
+        first = next(iter(scene_settings.values()))
         # the user's cache keeps the model of the start
         kept = first.blades[blade].elastic == self.settings.blades[blade].elastic
-        sweeps = {scene: blade_sweep(varied, blade, scene, kept=kept) for scene, varied in in_scenes.items()}
-        speeds = {scene: shared_speeds(varied, blade, scene) for scene, varied in in_scenes.items()}
-        return DesignRuns(in_scenes, recipes(first, blade, dict.fromkeys(_STRUCTURE), kept=kept), sweeps, speeds)
+        sweeps = {scene: blade_sweep(varied, blade, scene, kept=kept) for scene, varied in scene_settings.items()}
+        speeds = {scene: shared_speeds(varied, blade, scene) for scene, varied in scene_settings.items()}
+        return DesignRuns(scene_settings, recipes(first, blade, dict.fromkeys(_STRUCTURE), kept=kept), sweeps, speeds)
 
     def _measure(self, name: str, runs: DesignRuns, run_all: RunAll, file: Path) -> None:
         """Build the design, run it, and write its quantities. Raises Refused where it cannot be built."""

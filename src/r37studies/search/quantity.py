@@ -57,8 +57,8 @@ def contact_value(quantity: QuantitySection, measures: Mapping[str, Mapping[str,
     `measures`: scene -> measure -> its value, with the scatter of those that have one.
     """
     scatter = f"{quantity.measure.removesuffix('_rad_s')}_scatter_rad_s"
-    of_scenes = [measures[scene] for scene in quantity.scenes or ()]
-    values = [(_run_value(quantity.measure, known), known.get(scatter, math.nan)) for known in of_scenes]
+    scene_measures = [measures[scene] for scene in quantity.scenes or ()]
+    values = [(_run_value(quantity.measure, known), known.get(scatter, math.nan)) for known in scene_measures]
     return max(values, key=lambda value: value[0])
 
 

@@ -68,7 +68,7 @@ class LaidOutProblem:
             self._lay_out_quadratic(problem.contact.quadratic)
         if segments.increments is None:
             motion = problem.edge.motion
-            rows = self.in_lanes(motion.displacement_operator, motion.product_operator)
+            rows = self.lane_values(motion.displacement_operator, motion.product_operator)
             self._edge = EdgeTables(problem, rows if kind.exact_gap else rows[:1], self.node_lanes)
             put(self.record["edge"], **self._edge.fields)
         quadratic = problem.contact.quadratic is not None
@@ -92,7 +92,7 @@ class LaidOutProblem:
             modal_fields["increment_by_displacement"] = increments.displacement_factor
             modal_fields["increment_by_velocity"] = increments.velocity_factor
             modal_fields["velocity_by_increment"] = 1.0 / increments.velocity_factor
-        fields |= {name: self.in_lanes(values) for name, values in modal_fields.items()}
+        fields |= {name: self.lane_values(values) for name, values in modal_fields.items()}
         table = aligned_zeros((len(clearance),), constants_record(*self.capacity))
         # a node that only pads the vector must not touch
         table["clearance"] = 1.0
@@ -100,7 +100,7 @@ class LaidOutProblem:
             table[name][(slice(None), *map(slice, values.shape[1:]))] = values
         return table
 
-    def in_lanes(self, values: np.ndarray, products: np.ndarray | None = None) -> np.ndarray:
+    def lane_values(self, values: np.ndarray, products: np.ndarray | None = None) -> np.ndarray:
         """Arrays whose last axis is that of the modes, with these in their lanes and, where given, `products` in theirs."""
         lanes = np.zeros((*values.shape[:-1], self.mode_lanes))
         lanes[..., self.mode_columns] = values
@@ -123,8 +123,8 @@ class LaidOutProblem:
         outputs = contact.output_operator[None]
         put(
             self.record,
-            displacement_operator=self.in_lanes(contact.displacement_operator, contact.product_operator),
-            outputs=self.in_lanes(outputs[..., : self._modes], outputs[..., self._modes : columns]),
+            displacement_operator=self.lane_values(contact.displacement_operator, contact.product_operator),
+            outputs=self.lane_values(outputs[..., : self._modes], outputs[..., self._modes : columns]),
             radius=problem.casing.tip.radius,
             theta=problem.casing.tip.theta,
             number_of_outputs=len(contact.output_operator),
