@@ -155,7 +155,7 @@ def test_fatigue_of_three_nodes(model, mesh, steel, tmp_path):
     alternating, rotation = 2.0 * von_mises(tensors["swing"]), np.trace(tensors["rotation"], axis1=1, axis2=2)
     assert alternating.min() > 1e8 and rotation.min() > 1e8
     for place, mean in ((0.0, rotation), (3.0, rotation + 3.0 * np.trace(tensors["swing"], axis1=1, axis2=2))):
-        found, found_mean = stress_cycles(stress, (place + sine) * swing, np.eye(len(swing)), linear, 40)
+        found, found_mean = stress_cycles(stress, (place + sine) * swing, np.eye(len(swing)), linear, 40, 2)
         np.testing.assert_allclose(found[:, places], np.broadcast_to(alternating, (2, 3)), rtol=0.015)
         np.testing.assert_allclose(found_mean[places], mean, rtol=0.02)
 

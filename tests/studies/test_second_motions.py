@@ -435,6 +435,8 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
         {
             **{f"rms_{name}": (("scene", "speed", "tip_point"), np.ones((1, 5, 1))) for name in ("normal", "tangential")},
             "status": (("scene", "speed"), np.zeros((1, 5))),
+            "exit_cause": (("scene", "speed"), np.zeros((1, 5))),
+            "exit_revolution": (("scene", "speed"), np.full((1, 5), np.nan)),
         },
         {"scene": ["direct"], "speed": motions["speed"].values, "tip_point": ["leading_edge"]},
     )

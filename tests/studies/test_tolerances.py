@@ -329,7 +329,7 @@ def test_the_dataset_of_members(tmp_path):
     spread = found["rms_normal"].sel(speed=1700.0).values
     np.testing.assert_allclose(found["rms_normal_quantile"].sel(speed=1700.0), np.sort(spread)[[0, 9, 18]])
     expected = danger_of(branch(peaks[7]))
-    assert found["length_ever"][7] == expected["length_ever_rad_s"]
+    assert found["length_dangerous"][7] == expected["length_dangerous_rad_s"]
     assert found["largest_stress"][7] == expected["largest_stress_pa"]
 
 
@@ -392,7 +392,7 @@ def test_ranges_of_interactions():
     assert (six["share_of_members"], six["robust"]) == (0.4, False) and np.isnan(six["peak_speed_rad_s"])
     assert (four["share_of_members"], four["robust"], four["members"]) == (1.0, True, 10)
     assert [four[f"peak_speed_rad_s_{end}"] for end in ("low", "median", "high")] == [1690.0, 1710.0, 1735.0]
-    assert four["length_ever_rad_s_median"] == pytest.approx(four["length_ever_rad_s"])
+    assert four["length_dangerous_rad_s_median"] == pytest.approx(four["length_dangerous_rad_s"])
     # what lies beyond the members' speeds is not theirs to show
     (only,) = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4))}, InteractionChoice(), (1600.0, 1800.0))
     assert (only["engine_order"], only["share_of_members"]) == (4, 1.0)

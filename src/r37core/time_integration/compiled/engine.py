@@ -78,7 +78,7 @@ class Passage:
         self._snapshots = out.snapshots if plain else np.empty((len(out.snapshots), width))
         self._ends = np.empty((*self._schedule.ends.shape[:-1], engine.mode_lanes))
         self.done = 0
-        put(engine.record, u=engine.lane_values(state.displacement), increment=engine.in_lanes(state.increment))
+        put(engine.record, u=engine.lane_values(state.displacement), increment=engine.lane_values(state.increment))
         touched = np.packbits(state.touched, bitorder="little")
         put(engine.record, worn=0.0, largest_wear=state.wear.max(initial=0.0), touched=touched)
         put(engine.record, totals=state.totals, penetration=state.penetration, last_position=state.bar_position)
