@@ -129,8 +129,12 @@ def test_a_row_of_a_bare_casing_has_the_name_and_a_length_that_two_speeds_show_i
         runs = [at(speed, {14.27: 1e-3, 20.27: 4e-4}) for speed in speeds]
         data = xr.concat(runs, "speed").assign(casing_lobes=LOBES, lined=0, yield_stress=1e9)
         values = {f"rms_{name}": 1e-4 * (1.0 + peak) for name in ("normal", "tangential")}
-        values |= {f"max_von_mises_{name}": 5.02e8 * (1.0 + peak) for name in ("median", "high", "ever")}
-        values |= {"share_of_revolutions_above_yield": (peak > 0.99).astype(float), "status": np.zeros(len(speeds), "i1")}
+        values |= {f"max_von_mises_{name}": 5.02e8 * (1.0 + peak) for name in ("median", "high", "ever", "inside")}
+        values |= {
+            "share_of_revolutions_above_yield": (peak > 0.99).astype(float),
+            "exit_revolution": np.full(len(speeds), np.nan),
+            "status": np.zeros(len(speeds), "i1"),
+        }
         return find_interactions(data.assign({name: ("speed", each) for name, each in values.items()}), campbell(), CHOICE)
 
     for step, note in ((15.0, "not resolved: one or two speeds show the peak, 15 rad/s apart"), (1.0, "")):
