@@ -168,7 +168,8 @@ def test_a_rotor_has_the_largest_of_its_blades(contact, stress):
 
     alone = [shares([place]) for place in range(2)]
     np.testing.assert_allclose(shares([0, 1]), np.maximum(*alone), rtol=1e-6)
-    assert np.abs(alone[0] - alone[1]).max() > 0.01 * alone[0].max()
+    # of the later revolutions
+    assert np.abs(alone[0] - alone[1])[2:].min() > 0.01 * alone[0].max()
 
 
 SPEEDS = [1000.0, 1340.0, 1700.0]

@@ -15,7 +15,7 @@ from r37core.config.declaring import si
 from r37core.figures import style
 from r37core.results import measures
 from r37core.results.columns import OPERATING, ROBUSTNESS, names
-from r37core.results.danger import largest_of, ratio_to_yield
+from r37core.results.danger import largest_of, ratio_inside, ratio_to_yield
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.results.ranking import operating_measures, ranking_table
 from r37core.time_integration.status import RunStatus
@@ -62,7 +62,12 @@ def test_the_strongest_order_is_no_offset_and_no_casing():
 def test_a_response_is_above_yield_where_it_diverged_and_nowhere_unrun():
     data = response(np.zeros(6), stress=[1.0, 3.0, np.nan, np.nan, 3.0, 1.0])
     data["status"][2:4] = [int(RunStatus.DIVERGED), int(RunStatus.NOT_RUN)]
-    np.testing.assert_array_equal(ratio_to_yield(data), [0.5, 1.5, np.inf, 1.5, 0.5])
+    for ratio in (ratio_inside(data), ratio_to_yield(data, "max_von_mises_ever")):
+        np.testing.assert_array_equal(ratio, [0.5, 1.5, np.inf, 1.5, 0.5])
+    # one that had left the model before it diverged says no more of what is inside; the benchmark's stress counts in any case
+    data["exit_revolution"][2], data["max_von_mises_inside"][2] = 5.0, 1.2
+    np.testing.assert_array_equal(ratio_inside(data), [0.5, 1.5, 0.6, 1.5, 0.5])
+    np.testing.assert_array_equal(ratio_to_yield(data, "max_von_mises_ever"), [0.5, 1.5, np.inf, 1.5, 0.5])
 
 
 def test_the_largest_stress_and_the_first_yield_of_a_run():

@@ -9,7 +9,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.contact.casing import approach
 from r37core.fem.material import Material
 from r37core.mesh.mesh_files import read_vtu
-from r37core.results.danger import ratio_to_yield
+from r37core.results.danger import ratio_inside
 from r37core.results.measures import peak_of
 from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
@@ -49,7 +49,7 @@ def effect(input: Any, output: Any, params: Any) -> None:
             [
                 blade,
                 " → ".join(f"{float(peak_of(run)['speed']):.0f}" for run in pair),
-                " → ".join(f"{float(ratio_to_yield(run).max()):.2f}" for run in pair),
+                " → ".join(f"{float(ratio_inside(run).max()):.2f}" for run in pair),
                 " → ".join(f"{length:.0f}" for length in lengths),
             ]
         )

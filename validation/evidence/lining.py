@@ -41,9 +41,9 @@ def limits(input: Any, output: Any, params: Any) -> None:
         speeds = speeds_about_crossing(usual.contact, SHARES)
 
         def runs(models: Models, varied: Any = scene, step: float = 1.0, blade: str = blade, at: Any = speeds) -> list[Any]:
-            choices = [settings.integration_choice(blade, SCENE) for speed in at]
-            choices = [replace(choice, time_step=step * choice.time_step) for choice in choices]
-            return [numbers_of_run(models, speed, varied, choice, "wear") for speed, choice in zip(at, choices, strict=True)]
+            choice = settings.integration_choice(blade, SCENE)
+            choice = replace(choice, time_step=step * choice.time_step)
+            return [numbers_of_run(models, speed, varied, choice, "wear") for speed in at]
 
         cases = {
             "2,500 bars in place of 10,000": runs(usual, with_bars(scene, 2500)),

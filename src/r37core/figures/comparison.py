@@ -16,7 +16,7 @@ from r37core.rom.reduction_choice import LINEAR
 from r37core.time_integration.status import RunStatus
 
 from . import style
-from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows
+from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows, joined_runs
 
 _MOST_RANKED = 60
 """Blades whose bars fit in a picture."""
@@ -55,7 +55,7 @@ def draw_comparison(
     stress = None if stress is None else with_further_runs("stress", stress, further_runs)
     styles = style.blade_styles(rms["blade"].values)
     order = shared_order(campbell, float(rms["speed"].min()), float(rms["speed"].max()))
-    whole = rms if stress is None else xr.merge([rms, stress], join="left", compat="override")
+    whole = joined_runs(rms, stress)
     crossings = campbell["crossing_speed"].sel(mode="1B", engine_order=order).to_series() if order else {}
     windows = {blade: slice((1.0 - below) * speed, (1.0 + above) * speed) for blade, speed in dict(crossings).items()}
     responses = {blade: ran(whole.sel(blade=blade, speed=window)) for blade, window in windows.items() if window.start > 0.0}

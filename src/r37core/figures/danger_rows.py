@@ -71,6 +71,11 @@ def draw_danger_rows(
     axes.grid(visible=False, axis="y")
 
 
+def joined_runs(rms: xr.Dataset, stress: xr.Dataset | None) -> xr.Dataset:
+    """The runs of a dataset of the motion with their stress, where there is one."""
+    return rms if stress is None else xr.merge([rms, stress], join="left", compat="override")
+
+
 def kinds_of(response: xr.Dataset) -> dict[str, list[SpeedRange]]:
     """Ranges of dangerous, unknown and sustained speeds; without stress unknown are all at which the model is left."""
     if "max_von_mises_inside" in response and response["max_von_mises_inside"].notnull().any():

@@ -27,7 +27,7 @@ from r37core.time_integration.status import RunStatus
 
 from . import style
 from .campbell_diagram import draw_engine_orders
-from .danger_rows import LINE, draw_danger_rows
+from .danger_rows import LINE, draw_danger_rows, joined_runs
 
 _WIDTH = 5.2
 """Width (inch) at which letters can still be read where a telephone shows the figure."""
@@ -94,9 +94,8 @@ def draw_interactions(
     colours = {blade: look["color"] if owner[look["color"]] == blade else _OTHERS for blade, look in looks.items()}
     speeds = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
     margin = max(0.03 * (speeds[-1] - speeds[0]), 0.01 * speeds[-1])
-    kinds = {"rms": rms} if stress is None else {"rms": rms, "stress": stress}
-    parts = [with_further_runs(kind, dataset, further_runs) for kind, dataset in kinds.items()]
-    whole = xr.merge(parts, join="left", compat="override")
+    stress = None if stress is None else with_further_runs("stress", stress, further_runs)
+    whole = joined_runs(with_further_runs("rms", rms, further_runs), stress)
     drawn = rms["blade"].values.tolist() if rms.sizes["blade"] <= _MOST_ROWS else []
     highest = np.nanmin([1.3 * float(campbell["frequency"].sel(mode="2B").max()), 1.15 * rows["frequency"].max()])
     strip = -_STRIP * highest if rows["frequency"].isna().any() else 0.0

@@ -13,7 +13,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from . import style
-from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows
+from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows, joined_runs
 
 _MARKERS = (
     ("motion_at_end", MotionAtEnd.CUT_FREE, "o", "cut free at the end"),
@@ -67,7 +67,7 @@ def draw_response(
         panels[2].set_ylabel(style.stress_label(stress))
     for axes in panels:
         axes.set_ylim(bottom=0.0)
-    whole = rms if stress is None else xr.merge([rms, stress], join="left", compat="override")
+    whole = joined_runs(rms, stress)
     responses = {style.scene_words(scene): ran(whole.sel(scene=scene)) for scene in scenes}
     draw_danger_rows(rows, responses, [f"C{number}" for number in range(len(scenes))])
     rows.set_xlabel(style.SPEED_LABEL)

@@ -25,12 +25,11 @@ from r37core.time_integration.speed_arrays import OF_LINING
 from r37core.time_integration.status import RunStatus
 
 _SECOND_ORDER = "peak_share_of_height"
-_LENGTH, _UNKNOWN, _SUSTAINED = names(LENGTHS)
+_LENGTH, _UNKNOWN, _ = names(LENGTHS)
 
 _COLUMNS = (
-    "share_of_revolutions_above_yield", "worn_through_share", "note", "largest_stress_inside_pa",
-    "largest_stress_inside_pa_low", "largest_stress_inside_pa_high", _LENGTH, _UNKNOWN, _SUSTAINED,
-    "length_most_revolutions_worst_rad_s", "ranges_dangerous",
+    "worn_through_share", "note", "largest_stress_inside_pa", "largest_stress_inside_pa_low",
+    "largest_stress_inside_pa_high", _LENGTH, _UNKNOWN, "length_most_revolutions_worst_rad_s", "ranges_dangerous",
     "widest_range_from_rad_s", "widest_range_rad_s", "contact", "rank_over_scenes", "largest_gap_rad_s",
 )  # fmt: skip
 """Columns of summary.csv or ranking.csv that lines are made of, and that not every run has."""

@@ -10,7 +10,7 @@ import xarray as xr
 from r37core.base.peaks import half_width
 
 from .columns import DROP_WITHIN, MOST_REVOLUTIONS, NOT_RESOLVED
-from .danger import ranges_of, ratio_to_yield
+from .danger import ranges_of, ratio_inside
 from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, joined, outside, ranges_above
 from .interaction import Interaction, interaction_row, range_columns
 from .measures import motion, strongest_order
@@ -47,7 +47,7 @@ def ranges_without_peak(response: xr.Dataset, reaches: Sequence[SpeedRange]) -> 
     if "max_von_mises_inside" not in response:
         return []
     exceedance = exceedance_of(response)
-    ratio = ratio_to_yield(response)
+    ratio = ratio_inside(response)
     above = ratio["speed"].values[ratio.values > 1.0]
     parts = [part for within in _ranges(response, exceedance) for part in outside(within, reaches)]
     alone = above[[not any(reach.begin <= speed <= reach.end for reach in reaches) for speed in above]]

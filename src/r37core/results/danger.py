@@ -25,14 +25,19 @@ STRESSES = {
 """Column of DANGER -> variable of a response whose largest value it is."""
 
 
-def ratio_to_yield(response: xr.Dataset, stress: str = "max_von_mises_inside") -> xr.DataArray:
-    """A stress, by default the largest inside the model, as a share of yield, over the speeds that were run.
-
-    Infinite where a run diverged that had not left the model's limits before.
-    """
+def ratio_to_yield(response: xr.Dataset, stress: str) -> xr.DataArray:
+    """A stress as a share of yield, over the speeds that were run; infinite if diverged."""
     ratio = response[stress] / response["yield_stress"]
-    diverged = (response["status"] == RunStatus.DIVERGED) & response["exit_revolution"].isnull()
-    return ratio.where(~diverged, np.inf).dropna("speed")
+    return ratio.where(response["status"] != RunStatus.DIVERGED, np.inf).dropna("speed")
+
+
+def ratio_inside(response: xr.Dataset) -> xr.DataArray:
+    """The largest stress before the model's limits are left, as a share of yield, over the speeds that were run.
+
+    Infinite where a run diverged that had not left them before.
+    """
+    left = response["exit_revolution"].notnull()
+    return ratio_to_yield(response.assign(status=response["status"].where(~left, RunStatus.COMPLETED)), "max_von_mises_inside")
 
 
 def danger_ranges(response: xr.Dataset, factor: float = 1.0) -> tuple[list[SpeedRange], list[SpeedRange]]:
@@ -40,7 +45,7 @@ def danger_ranges(response: xr.Dataset, factor: float = 1.0) -> tuple[list[Speed
 
     Between two speeds the stress is a straight line; an unknown speed reaches half of the way to the next one.
     """
-    ratio = ratio_to_yield(response)
+    ratio = ratio_inside(response)
     speeds, above = ratio["speed"].values, factor * ratio.values > 1.0
     left = response["exit_revolution"].sel(speed=ratio["speed"]).notnull().values
     dangerous = ranges_above(speeds, ratio.values, 1.0 / factor)
@@ -56,7 +61,7 @@ def ranges_of(response: xr.Dataset) -> dict[str, list[SpeedRange]]:
 
 def grid_scatter(response: xr.Dataset, measure: Callable[[Sequence[SpeedRange]], float] | None = None) -> float:
     """Standard deviation (rad/s) of the length, or another `measure`, of the dangerous speeds by the distance of the speeds."""
-    ratio = ratio_to_yield(response)
+    ratio = ratio_inside(response)
     # an infinite one has no mean
     return Exceedance(ratio["speed"].values, ratio.clip(max=1e6).values, chance=False).scatter_of_length(1.0, measure)
 

@@ -1,7 +1,7 @@
 """Limits of the model, why runs are beyond them, and from which revolution on. Light: Snakemake's start imports it."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -10,35 +10,6 @@ from r37core.time_integration.status import Outcome
 
 _MOTION, _PAGE = "peak_share_of_height", "(docs/large_motion.md#limits)"
 _FED = "; with a smaller time step it may diverge, and a smaller friction.coefficient shows whether friction feeds it"
-
-_LIMITS: dict[str, tuple[str | float, str]] = {
-    _MOTION: (
-        "share_of_height_limit",
-        "the tip moves by up to {:.2g} of the blade's height; second order follows full finite elements to {:.2g} "
-        + _PAGE
-        + _FED,
-    ),
-    # Static force on a patch of 4 mm of tip: 3% off full finite elements of large displacement at 2 kN, 10% at 3.6 kN. Of such
-    # forces a bare casing puts a sixth on the end patch of 0.35 mm, in pulses of 10 us: it is 10% off at 0.3 kN.
-    "largest_normal_force": (
-        2000.0,
-        "contact forces reach {:.3g} N a node; from {:g} N on the tip's ends are 10% off full finite elements " + _PAGE,
-    ),
-    "energy_residual_share": (0.02, "up to {:.2g} of the energy is unaccounted for, above {:g}: take a smaller time step"),
-    "bounded_share_of_time": (
-        0.0,
-        "only the bound on the elastic energy ends the growth of the motion, in up to {:.2g} of the steps" + _FED,
-    ),
-    "friction_power": (
-        "melting_power",
-        "friction takes up to {:.3g} W over 20 revolutions; from {:.3g} W on the tenth that enters the tip melts it in 1 s",
-    ),
-    "friction_heat": (
-        "melting_power",
-        "friction makes up to {:.3g} J of heat; from {:.3g} J on the tenth that enters the tip melts it, if none flows off",
-    ),
-}
-"""Variable of the runs -> its limit, with displacements of second order, or the variable that has it; the reason in words."""
 
 
 class Cause(Outcome):
@@ -51,31 +22,65 @@ class Cause(Outcome):
     ENERGY = 4
 
 
-CAUSES = {
-    _MOTION: Cause.HEIGHT,
-    "largest_normal_force": Cause.FORCE,
-    "energy_residual_share": Cause.ENERGY,
-    "bounded_share_of_time": Cause.ENERGY,
-    "friction_power": Cause.HEAT,
-    "friction_heat": Cause.HEAT,
-}
-"""Variable that a limit is of -> its cause in a word."""
+class _Limit(NamedTuple):
+    """A limit: its number, with displacements of second order, or the variable that has it; the reason in words.
 
-_SO_FAR = {
-    _MOTION: "revolution_share_of_height",
-    "largest_normal_force": "force_so_far",
-    "bounded_share_of_time": "bounded_so_far",
-    "friction_heat": "heat_so_far",
-}
-"""Variable of a run -> array of its file with what it is in, or until the end of, each revolution."""
+    `until`: array of a run's file with what the variable is in, or until the end of, each revolution; empty without one.
+    """
 
-OF_LIMITS = (*_LIMITS, *(limit for limit, _ in _LIMITS.values() if isinstance(limit, str)))
+    cause: Cause
+    limit: str | float
+    text: str
+    until: str = ""
+
+
+_LIMITS = {
+    _MOTION: _Limit(
+        Cause.HEIGHT,
+        "share_of_height_limit",
+        "the tip moves by up to {:.2g} of the blade's height; second order follows full finite elements to {:.2g} "
+        + _PAGE
+        + _FED,
+        "revolution_share_of_height",
+    ),
+    # Static force on a patch of 4 mm of tip: 3% off full finite elements of large displacement at 2 kN, 10% at 3.6 kN. Of such
+    # forces a bare casing puts a sixth on the end patch of 0.35 mm, in pulses of 10 us: it is 10% off at 0.3 kN.
+    "largest_normal_force": _Limit(
+        Cause.FORCE,
+        2000.0,
+        "contact forces reach {:.3g} N a node; from {:g} N on the tip's ends are 10% off full finite elements " + _PAGE,
+        "force_so_far",
+    ),
+    "energy_residual_share": _Limit(
+        Cause.ENERGY, 0.02, "up to {:.2g} of the energy is unaccounted for, above {:g}: take a smaller time step"
+    ),
+    "bounded_share_of_time": _Limit(
+        Cause.ENERGY,
+        0.0,
+        "only the bound on the elastic energy ends the growth of the motion, in up to {:.2g} of the steps" + _FED,
+        "bounded_so_far",
+    ),
+    "friction_power": _Limit(
+        Cause.HEAT,
+        "melting_power",
+        "friction takes up to {:.3g} W over 20 revolutions; from {:.3g} W on the tenth that enters the tip melts it in 1 s",
+    ),
+    "friction_heat": _Limit(
+        Cause.HEAT,
+        "melting_power",
+        "friction makes up to {:.3g} J of heat; from {:.3g} J on the tenth that enters the tip melts it, if none flows off",
+        "heat_so_far",
+    ),
+}
+"""Variable of the runs -> its limit."""
+
+OF_LIMITS = tuple(dict.fromkeys([*_LIMITS, *(each.limit for each in _LIMITS.values() if isinstance(each.limit, str))]))
 """Variables that the limits are of."""
 
 
 def _excess(runs: Mapping[Any, Any], name: str) -> tuple[np.ndarray, ...]:
     """Numbers of all runs, their limits, and which are beyond."""
-    limit = _LIMITS[name][0]
+    limit = _LIMITS[name].limit
     fixed = (
         np.where(np.isfinite(runs.get(_MOTION, np.nan)), limit, np.inf) if isinstance(limit, float) else runs.get(limit, np.nan)
     )
@@ -91,11 +96,11 @@ def beyond_limits(runs: Mapping[Any, Any]) -> np.ndarray:
 def reasons_beyond_limits(runs: Mapping[Any, Any]) -> list[str]:
     """Reasons why runs are beyond limits, each with the numbers of the run that goes furthest; `runs`: see beyond_limits."""
     reasons = []
-    for name, (_, text) in _LIMITS.items():
+    for name, known in _LIMITS.items():
         values, limits, beyond = _excess(runs, name)
         if beyond.any():
             furthest = np.where(beyond, values, -np.inf).argmax()
-            reasons.append(text.format(values.flat[furthest], limits.flat[furthest]))
+            reasons.append(known.text.format(values.flat[furthest], limits.flat[furthest]))
     return reasons
 
 
@@ -106,17 +111,17 @@ def first_revolutions_beyond(run: Mapping[str, np.ndarray]) -> dict[Cause, float
     mean power is known with its last revolution.
     """
     firsts = dict.fromkeys(list(Cause)[1:], np.inf)
-    for name, cause in CAUSES.items():
+    for name, known in _LIMITS.items():
         _, limit, beyond = _excess(run, name)
         if not beyond.any():
             continue
         first = 1.0
         if name == "friction_power" and "heat_so_far" in run:
             first = _first_hot_revolution(run["heat_so_far"], float(limit) * 2.0 * np.pi / float(run["speed"]))
-        elif _SO_FAR.get(name) in run:
-            above = run[_SO_FAR[name]] > limit
+        elif known.until in run:
+            above = run[known.until] > limit
             first = float(above.argmax()) + 1.0 if above.any() else 1.0
-        firsts[cause] = min(firsts[cause], first)
+        firsts[known.cause] = min(firsts[known.cause], first)
     return firsts
 
 

@@ -11,7 +11,7 @@ from r37core.base.io import readable
 from r37core.base.units import RPM, si_name
 from r37core.base.variable import Variable, about
 from r37core.results.columns import ENDS
-from r37core.results.danger import ratio_to_yield
+from r37core.results.danger import ratio_inside
 from r37core.results.events import OF_EXIT, OF_YIELD
 from r37core.results.measures import leading_edge, peak_of
 from r37core.results.ranking import RANKED_BY, robustness
@@ -104,7 +104,7 @@ def _pair_dataset(pair: tuple[str, str], members: Sequence[xr.Dataset]) -> xr.Da
         quantiles = spread.quantile(QUANTILES, "member", method="inverted_cdf").where(~diverged.all("member"))
         sample[f"{name}_quantile"] = quantiles.assign_attrs(about(units, f"quantiles over the members: {meaning}"))
     if "max_von_mises_ever" in sample:
-        above = ratio_to_yield(sample) > 1.0
+        above = ratio_inside(sample) > 1.0
         count = above.sum("member")
         low, high = share_ends(count.values, above.sizes["member"])
         ends = f"end of what that share says of all that could be drawn, {CONFIDENCE:.0%} sure"
