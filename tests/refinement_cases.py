@@ -6,6 +6,7 @@ import xarray as xr
 from r37core.adaptive.criterion import RefinementChoice, Window
 from r37core.adaptive.rounds import first_round, round_after
 from r37core.base.speeds import plan_speeds
+from r37core.results.events import Danger
 from r37core.time_integration.status import RunStatus
 
 WINDOWS = (Window("1B", 8, 0.0, 0.05, 5.0),)
@@ -15,7 +16,7 @@ PLAN = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}], 8
 GRID = PLAN.refined[0]
 
 
-STRESS = "max_von_mises_last_revolution"
+STRESS = "max_von_mises_inside"
 
 
 def campbell(crossings):
@@ -27,7 +28,7 @@ def campbell(crossings):
     ).reindex(mode=["1B", "1T", "2B"])
 
 
-def spiked(*spikes, yield_stress=1e9, diverged=()):
+def spiked(*spikes, yield_stress=1e9, diverged=(), left=()):
     """A response on the whole grid: from each (first, peak, height) a branch rises to the peak, and drops after it."""
     speeds = np.array(GRID.every_speed())
     rms = 2e-5 + 1e-6 * np.sin(speeds)
@@ -44,6 +45,7 @@ def spiked(*spikes, yield_stress=1e9, diverged=()):
             **{name: ("speed", stress) for name in (STRESS, *(f"max_von_mises_{kind}" for kind in ("median", "high", "ever")))},
             "share_of_revolutions_above_yield": ("speed", np.where(status == 0, stress > yield_stress, np.nan)),
             "yield_stress": ((), yield_stress),
+            "left": ("speed", np.isin(speeds, left)),
         },
         coords={"speed": speeds, "tip_point": ["leading_edge", "trailing_edge"]},
     )
@@ -52,7 +54,10 @@ def spiked(*spikes, yield_stress=1e9, diverged=()):
 def asked(response, crossings=(), choice=CHOICE, plan=PLAN):
     """New speeds of each round as the sweep asks for them, with the runs looked up in the whole grid, and all of them."""
     edge, rounds = response.sel(tip_point="leading_edge"), []
-    columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], edge[STRESS] / edge["yield_stress"]]
+    ratio = edge[STRESS] / edge["yield_stress"]
+    passed = (ratio > 1.0) | (edge["status"] == RunStatus.DIVERGED)
+    danger = xr.where(passed, Danger.DANGEROUS, xr.where(edge["left"], Danger.UNKNOWN, Danger.BELOW))
+    columns = [danger, edge["rms_normal"], edge["rms_tangential"], ratio]
     rows = dict(zip(edge["speed"].values.tolist(), np.transpose(columns).tolist(), strict=True))
     current = first_round(plan, campbell(crossings), choice)
     while current.new:

@@ -83,44 +83,49 @@ def test_more_columns_say_more(tmp_path):
 
 
 def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
-    head = "blade,scene,rank,length_dangerous_rad_s,length_unknown_rad_s,largest_gap_rad_s\n"
-    rows = ("S100,lined,1,13.2,0,20\n", "Ref,lined,2,70.6,0,20\n", "Ref,direct,1,47.1,0,10\n", "S100,direct,2,854.2,0,10\n")
+    head = "blade,scene,rank_lowest,rank_highest,length_dangerous_rad_s,length_unknown_rad_s,largest_gap_rad_s\n"
+    rows = ["S100,lined,1,1,13.2,0,20\n", "Ref,lined,2,2,70.6,0,20\n"]
+    rows += ["Ref,direct,1,1,47.1,0,10\n", "S100,direct,2,2,854.2,0,10\n"]
     (tmp_path / "ranking.csv").write_text(head + "".join(rows))
     lined, direct, missed = last_lines(tmp_path, *ROWS)[1:4]
-    assert lined.startswith("lined: S100 is dangerous at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); ")
-    assert direct.startswith("direct: Ref is dangerous at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); ")
+    assert lined.startswith("lined: S100 is dangerous at the fewest speeds (13 rad/s), Ref is at the most (71 rad/s); ")
+    assert direct.startswith("direct: Ref is dangerous at the fewest speeds (47 rad/s), S100 is at the most (854 rad/s); ")
     assert missed == "speeds lie up to 20 rad/s apart: a narrower interaction between them may be missed"
-    # those that share a rank cannot be told apart, and are all named
+    # of those that cannot be told apart all are named, also where one overlaps both ends
     rows = [
-        "A,x,1,40,0,0",
-        "B,x,1,40,5,0",
-        "A,y,1,0,0,0",
-        "B,y,1,5,0,0",
-        "C,y,3,9,0,0",
-        *(f"D{n},z,1,0,0,0" for n in range(12)),
+        "A,x,1,2,40,0,0",
+        "B,x,1,2,40,5,0",
+        "A,y,1,2,0,0,0",
+        "B,y,1,2,5,0,0",
+        "C,y,3,3,9,0,0",
+        *(f"D{n},z,1,12,0,0,0" for n in range(12)),
+        "A,u,1,2,5,0,0",
+        "B,u,1,3,5,20,0",
+        "C,u,2,3,22,1,0",
     ]
     (tmp_path / "ranking.csv").write_text(head + "\n".join(rows) + "\n")
-    x, y, z = last_lines(tmp_path, *ROWS)[1:-2]
+    x, y, z, u = last_lines(tmp_path, *ROWS)[1:-2]
+    assert u.startswith("u: A or B may be dangerous at the fewest speeds (5 to 25 rad/s), B or C may be at the most (5 to 25 ")
     assert x.startswith("x: A and B cannot be ranked (dangerous over 40 to 45 rad/s); ")
-    assert y.startswith("y: A and B are dangerous at the fewest speeds (0 to 5 rad/s), C at the most (9 rad/s); ")
+    assert y.startswith("y: A or B may be dangerous at the fewest speeds (0 to 5 rad/s), C is at the most (9 rad/s); ")
     assert z.startswith("z: D0, D1, D2, D3 and 8 more cannot be ranked (dangerous over 0 rad/s); ")
 
 
 def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     """A sum of several ranges is told apart from the widest of them."""
-    head = "blade,scene,rank,contact,rank_over_scenes,length_unknown_rad_s,length_dangerous_rad_s,"
+    head = "blade,scene,rank_lowest,rank_highest,contact,rank_over_scenes,length_unknown_rad_s,length_dangerous_rad_s,"
     head += "ranges_dangerous,widest_range_from_rad_s,widest_range_rad_s\n"
-    points = "S100,x,1,{0},3,0,13.2,1,1200,13.2\nA,x,2,{0},1,0,40,1,1200,40\nRef,x,3,{0},1,0,128.9,3,1635.2,119.9\n"
-    points += "Ref,y,1,{0},1,0,47,1,1300,47\nA,y,2,{0},1,0,130,2,900,100\nS100,y,3,{0},3,0,854.2,4,900,800\n"
+    points = "S100,x,1,1,{0},3,0,13.2,1,1200,13.2\nA,x,2,2,{0},1,0,40,1,1200,40\nRef,x,3,3,{0},1,0,128.9,3,1635.2,119.9\n"
+    points += "Ref,y,1,1,{0},1,0,47,1,1300,47\nA,y,2,2,{0},1,0,130,2,900,100\nS100,y,3,3,{0},3,0,854.2,4,900,800\n"
     points = points.format('"8 points, linear"')
     (tmp_path / "ranking.csv").write_text(head + points)
     lined, bare, over, contact = last_lines(tmp_path, *ROWS)[1:-2]
     assert lined.startswith("8 points, linear: x: S100 is dangerous") and over.startswith("8 points, linear: over both scenes")
-    assert "Ref at the most (129 rad/s in 3 ranges, the widest from 1635 to 1755); " in lined and "(13 rad/s)" in lined
-    assert "S100 at the most (854 rad/s in 4 ranges" in bare
+    assert "Ref is at the most (129 rad/s in 3 ranges, the widest from 1635 to 1755); " in lined and "(13 rad/s)" in lined
+    assert "S100 is at the most (854 rad/s in 4 ranges" in bare
     assert over.endswith(", by the longest length in any (rad/s): Ref 129 = A 130, S100 854 (=: cannot be told apart)")
     assert contact == ("the ranking is of contact on points; a decision needs structure: { boundary: { contact: patches } }")
-    patches = 'Mine,x,1,"patches, {0}",1,0,5,1,900,5\nMine,y,1,"patches, {0}",1,0,5,1,900,5\n'
+    patches = 'Mine,x,1,1,"patches, {0}",1,0,5,1,900,5\nMine,y,1,1,"patches, {0}",1,0,5,1,900,5\n'
     (tmp_path / "ranking.csv").write_text(head + points + patches.format("linear"))
     contact = last_lines(tmp_path, *ROWS)[-3]
     among = "(8 points, linear: S100, A, Ref; patches, linear: Mine)"

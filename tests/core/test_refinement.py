@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from refinement_cases import CHOICE, GRID, PLAN, WINDOWS, asked, campbell, spiked
+from refinement_cases import CHOICE, GRID, PLAN, STRESS, WINDOWS, asked, campbell, spiked
 
 from r37core.adaptive.criterion import RefinementChoice, dense_ranges, next_speeds, window_speeds
 from r37core.adaptive.rounds import Round, first_round, measure_members, read_round, round_after, write_round
@@ -22,7 +22,7 @@ from r37core.config.settings import merged_settings
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import load_settings, read_settings
 from r37core.time_integration.speed_file import write_speed
-from r37core.time_integration.status import RunStatus
+from r37core.results.events import Danger
 
 
 def test_a_range_has_its_coarse_speeds_and_its_end():
@@ -101,18 +101,19 @@ def test_a_branch_its_peak_and_its_drop_are_found_to_one_grid_step():
     assert len(rounds) <= 6
 
 
-def test_a_narrow_interaction_in_a_window_and_a_change_of_status_are_found():
+def test_a_narrow_interaction_in_a_window_and_borders_of_danger_are_found():
     response = spiked((1232.0, 1237.0, 1e-3))
     assert {1237.0, 1238.0} <= set(asked(response, [1200.0])[1])
     assert 1237.0 not in asked(response)[1]
-    assert {1499.0, 1500.0, 1570.0, 1571.0} <= set(asked(spiked(diverged=range(1500, 1571)))[1])
+    for kind in ("diverged", "left"):
+        assert {1499.0, 1500.0, 1570.0, 1571.0} <= set(asked(spiked(**{kind: range(1500, 1571)}))[1])
 
 
 def test_where_stress_crosses_yield_is_found():
     """Stress rises with the speed, by too little from speed to speed to be a change."""
     response = spiked()
     response["rms_normal"][:] = response["rms_tangential"][:] = 1e-3
-    response["max_von_mises_last_revolution"][:] = np.linspace(0.7e9, 1.1e9, 1251)
+    response[STRESS][:] = np.linspace(0.7e9, 1.1e9, 1251)
     crossing = 750.0 + 1250.0 * 0.3 / 0.4
     speeds = np.array(asked(response, choice=replace(CHOICE, prominence=0.5))[1])
     assert speeds[speeds > crossing][0] - speeds[speeds < crossing][-1] <= 1.0
@@ -121,9 +122,9 @@ def test_where_stress_crosses_yield_is_found():
 def test_a_flat_response_asks_for_no_more():
     flat = spiked()
     flat["rms_normal"][:] = flat["rms_tangential"][:] = 1e-5
-    flat["max_von_mises_last_revolution"][:] = 1e7
+    flat[STRESS][:] = 1e7
     silent = spiked()
-    for name in ("rms_normal", "rms_tangential", "max_von_mises_last_revolution"):
+    for name in ("rms_normal", "rms_tangential", STRESS):
         silent[name][:] = 0.0
     assert asked(flat)[0] == asked(silent)[0] == asked(spiked())[0] == [list(PLAN.certain)]
 
@@ -147,7 +148,7 @@ def test_a_round_takes_half_of_what_is_left_or_the_last_sixteen(left, next_round
 
 
 def test_diverged_and_missing_numbers_are_no_peaks_nor_are_speeds_off_the_grid():
-    rows = {speed: [int(RunStatus.DIVERGED), np.nan, np.nan, np.nan] for speed in PLAN.certain}
+    rows = {speed: [Danger.DANGEROUS, np.nan, np.nan, np.nan] for speed in PLAN.certain}
     assert next_speeds(GRID, rows, CHOICE) == []
     plan = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}, 999.5, 2500], 8.0)
     rows = {speed: [0, 1e-5, 1e-5, 0.1] for speed in plan.certain} | {999.5: [0, 1.0, 1.0, 9.0], 2500.0: [0, 1.0, 1.0, 9.0]}
@@ -181,29 +182,61 @@ def test_a_round_s_file_says_what_it_was(tmp_path):
     assert "NaN" not in (tmp_path / "round_3.json").read_text()
 
 
-def test_what_runs_of_two_members_give(tmp_path):
-    """Without stress and of a diverged run that is no number."""
-    rms = {"rms_normal": np.array([0.0, 3.0]), "rms_tangential": np.array([2.0, 5.0])}
-    run = {"status": np.array(0), **rms, "max_von_mises_last_revolution": np.array([4.0, 9.0])}
-    diverged = run | {"status": np.array(1), "max_von_mises_last_revolution": np.array([np.nan, 9.0])}
-    runs = [run, diverged, run, {"status": np.array(0), **rms}]
-    for number, numbers in enumerate(runs):
-        write_speed(numbers, tmp_path / f"{number}.npz", {})
-    gave = measure_members([8.0, 16.0], [900.0, 950.0], [tmp_path / f"{number}.npz" for number in range(4)])
-    np.testing.assert_equal(gave[900.0], [0, 0.0, 2.0, 0.5, 0, 0.0, 2.0, 0.25])
-    np.testing.assert_equal(gave[950.0], [1, 0.0, 2.0, np.nan, 0, 0.0, 2.0, np.nan])
+def run(history=(), hot_from=None, **more):
+    """Arrays of a run of 100 revolutions: its stress in each, Pa, and its heat, which melts the tip from one on."""
+    heat = np.zeros(100) if hot_from is None else np.where(np.arange(1, 101) < hot_from, 0.0, 200.0)
+    return {
+        "status": np.array(0),
+        "speed": np.array(900.0),
+        "diverged_revolution": np.array(np.nan),
+        "rms_normal": np.array([0.0, 3.0]),
+        "rms_tangential": np.array([2.0, 5.0]),
+        "revolution_maximum": np.zeros((100, 2)),
+        "statistic_end": np.array(100),
+        "friction_heat": heat[-1],
+        "heat_so_far": heat,
+        "melting_power": np.array(100.0),
+        **({"revolution_von_mises": np.array([history])} if len(history) else {}),
+        **more,
+    }
+
+
+EARLY = np.where(np.arange(1, 101) == 3, 9.0, 0.5)
+"""A stress (Pa) that is high in the third revolution alone."""
+DIVERGED = {"status": np.array(1), "diverged_revolution": np.array(50.0)}
+
+
+@pytest.mark.parametrize(
+    ("numbers", "danger", "stress"),
+    [
+        # the last revolution does not decide
+        (run(EARLY), Danger.DANGEROUS, 9.0 / 8.0),
+        (run(0.5 * EARLY), Danger.BELOW, 4.5 / 8.0),
+        (run(EARLY, hot_from=2), Danger.UNKNOWN, 0.5 / 8.0),
+        (run(0.5 * EARLY, hot_from=10), Danger.UNKNOWN, 4.5 / 8.0),
+        (run(EARLY, hot_from=10), Danger.DANGEROUS, 9.0 / 8.0),
+        (run(0.5 * EARLY, **DIVERGED), Danger.DANGEROUS, 4.5 / 8.0),
+        # a blade given by matrices has no stress
+        (run(), Danger.BELOW, np.nan),
+        (run(hot_from=2), Danger.UNKNOWN, np.nan),
+        (run(**DIVERGED), Danger.DANGEROUS, np.nan),
+    ],
+)
+def test_danger_and_curves_of_runs(tmp_path, numbers, danger, stress):
+    write_speed(numbers, tmp_path / "one.npz", {})
+    gave = measure_members([8.0, 16.0], [900.0], [tmp_path / "one.npz"] * 2)
+    np.testing.assert_equal(gave[900.0][:4], [danger, 0.0, 2.0, stress])
+    np.testing.assert_equal(gave[900.0][7], stress / 2.0)
 
 
 def test_a_round_of_a_blade_without_stress(tmp_path):
-    """A blade given by matrices has no material: its rounds go by rms and status alone."""
     write_round(Round((900.0,)), tmp_path / "round_0.json")
-    rms = dict.fromkeys(("rms_normal", "rms_tangential"), np.full(2, 1e-4))
-    write_speed({"status": np.array(0), **rms}, tmp_path / "speed_900.npz", {})
+    write_speed(run(), tmp_path / "speed_900.npz", {})
     params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE)}
     files = Named(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz"))
     refine_step(files, Named(round=tmp_path / "round_1.json"), Named(**params, yield_stress=math.inf))
-    status, normal, _, stress = read_round(tmp_path / "round_1.json").measured[900.0]
-    assert (status, normal) == (0, 1e-4)
+    danger, normal, _, stress = read_round(tmp_path / "round_1.json").measured[900.0]
+    assert (danger, normal) == (Danger.BELOW, 0.0)
     assert np.isnan(stress)
 
 

@@ -8,12 +8,11 @@ import xarray as xr
 
 from r37core.base.peaks import prominent_peaks
 from r37core.base.speeds import RefinedRange
-from r37core.time_integration.status import RunStatus
 
 from .refinement_choice import RefinementChoice, Window
 
 CURVES = ("rms_normal", "rms_tangential", "stress")
-"""Curves over speed: rms (m) of the leading edge in two directions, largest stress as a share of yield."""
+"""Curves over speed: rms (m) of the leading edge in two directions, largest stress inside the model as a share of yield."""
 
 LEAST_OF_A_ROUND = 16
 """Speeds that a round may ask for where so many are left: each round makes Snakemake plan the whole run again."""
@@ -48,8 +47,9 @@ def window_speeds(grid: RefinedRange, expected: Sequence[tuple[float, float, flo
 def next_speeds(grid: RefinedRange, measured: Mapping[float, Sequence[float]], choice: RefinementChoice) -> list[float]:
     """Speeds (rad/s), ascending, in the middle of the intervals that are worth halving; none when all is known.
 
-    `measured`: status and CURVES, NaN for no number, at each speed (rad/s), of one run or of several members of a sample after
-    each other; an interval has their mean worth. Every coarse speed of the grid must be known.
+    `measured`: Danger and CURVES, NaN for no number, at each speed (rad/s), of one run or of several members of a sample after
+    each other; an interval has their mean worth, of equal ones the longest comes first. Every coarse speed of the grid must be
+    known.
     """
     speeds = np.array(sorted(measured))
     rows = np.array([measured[speed] for speed in speeds], dtype=float).reshape(len(speeds), -1, 1 + len(CURVES))
@@ -58,10 +58,11 @@ def next_speeds(grid: RefinedRange, measured: Mapping[float, Sequence[float]], c
     indices = indices[places]
     room = int(choice.largest_share * (grid.last + 1)) - len(indices)
     worth = np.mean([_worth(member.T, places, choice) for member in rows.swapaxes(0, 1)], axis=0)
-    open_intervals = np.flatnonzero((np.diff(indices) > 1) & (worth > 0.0))
-    # the largest first; half of the room, so that later rounds can follow what this one finds
+    lengths = np.diff(indices)
+    open_intervals = np.flatnonzero((lengths > 1) & (worth > 0.0))
+    # half of the room, so that later rounds can follow what this one finds
     most = max(-(-room // 2), min(room, LEAST_OF_A_ROUND), 0)
-    chosen = sorted(open_intervals, key=lambda i: (-worth[i], i))[:most]
+    chosen = sorted(open_intervals, key=lambda i: (-worth[i], -lengths[i], i))[:most]
     return [grid.speed(int(indices[i] + indices[i + 1]) // 2) for i in sorted(chosen)]
 
 
@@ -75,25 +76,22 @@ def _grid_indices(grid: RefinedRange, speeds: np.ndarray) -> np.ndarray:
 def _worth(measured: np.ndarray, places: np.ndarray, choice: RefinementChoice) -> np.ndarray:
     """Worth of halving each interval, shape (places - 1,): 0 for nothing, else the height in shares of a curve's top.
 
-    `measured`: status and curves of one member, shape (1 + CURVES, speeds), of which those on the grid are at `places`.
+    Where the danger changes it is that of a top: borders of dangerous and unknown speeds make the lengths that blades are
+    ranked by. `measured`: Danger and curves of one member, shape (1 + CURVES, speeds), of which those on the grid are at
+    `places`.
     """
-    status, curves = measured[0, places], np.nan_to_num(measured[1:], nan=0.0)
-    worth = np.zeros(len(places) - 1)
-    for name, values in zip(CURVES, curves, strict=True):
+    danger, curves = measured[0, places], np.nan_to_num(measured[1:], nan=0.0)
+    worth = (danger[:-1] != danger[1:]).astype(float)
+    for values in curves:
         # a curve without numbers marks nothing
         top = values.max(initial=0.0) or 1.0
         curve = values[places] / top
         larger, change = np.maximum(curve[:-1], curve[1:]), np.abs(np.diff(curve))
         seen = (change > choice.change * larger) & (larger > choice.prominence)
         seen |= (change > choice.steep_change * larger) & (larger > choice.steep_prominence)
-        if name == "stress":
-            above = curve * top > 1.0
-            seen |= above[:-1] != above[1:]
         seen |= _near_a_peak(curve, choice)
         worth = np.maximum(worth, np.where(seen, np.maximum(change, larger), 0.0))
-    ended = np.isin(status, [RunStatus.COMPLETED, RunStatus.DIVERGED])
-    differs = (status[:-1] != status[1:]) & ended[:-1] & ended[1:]
-    return np.where(differs, np.inf, worth)
+    return worth
 
 
 def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:

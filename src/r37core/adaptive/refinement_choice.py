@@ -25,9 +25,9 @@ class Window:
 class RefinementChoice:
     """Choice of what makes an interval of speeds worth halving; every number is a share.
 
-    `windows` come first. Then an interval is halved when rms or stress change by more than `change` of the larger, when
-    stress crosses yield, when the status changes, and when a peak of at least `prominence` of the largest reaches within
-    `peak` of its height in it; changes below `prominence` of the largest do not count. A change by more than `steep_change`
+    `windows` come first. Then an interval is halved when one of its speeds is dangerous or unknown and the other is not so;
+    when rms or stress inside the model change by more than `change` of the larger; and when a peak of at least `prominence` of
+    the largest reaches within `peak` of its height in it. Changes below `prominence` of the largest do not count. A change by more than `steep_change`
     counts down to `steep_prominence`: an interaction narrower than the interval leaves no more than its foot. At most
     `largest_share` of the grid is run, where the response is largest first.
     """

@@ -6,10 +6,12 @@ from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
 from r37core.base.io import read_json, readable, write_json
 from r37core.base.speeds import SpeedPlan
+from r37core.results.events import exit_of, yield_events
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
@@ -18,7 +20,7 @@ from .criterion import RefinementChoice, dense_ranges, next_speeds, window_speed
 
 @dataclass(frozen=True)
 class Round:
-    """Round: its `new` speeds (rad/s), ascending, none in the last; `measured` of each speed before: status, CURVES.
+    """Round: its `new` speeds (rad/s), ascending, none in the last; `measured` of each speed before: Danger, CURVES.
 
     Of several members of a sample these follow one after the other.
     """
@@ -35,25 +37,27 @@ def first_round(plan: SpeedPlan, campbell: xr.Dataset, choice: RefinementChoice)
 
 
 def round_after(before: Round, gave: Mapping[float, Sequence[float]], plan: SpeedPlan, choice: RefinementChoice) -> Round:
-    """The round after one whose new speeds `gave` a status and CURVES each."""
+    """The round after one whose new speeds `gave` a Danger and CURVES each."""
     measured = {**before.measured, **gave}
     new = {speed for grid in plan.refined for speed in next_speeds(grid, measured, choice)}
     return Round(tuple(sorted(new)), measured)
 
 
 def measure_members(yields: Sequence[float], speeds: Sequence[float], files: Iterable[Path | str]) -> dict[float, list[float]]:
-    """Status and CURVES at each speed (rad/s), one member after the other, as Round has them; one blade alone is one member.
+    """Danger and CURVES at each speed (rad/s), one member after the other, as Round has them; one blade alone is one member.
 
-    CURVES are by the region that decides; NaN for a stress that is not wanted, and of a diverged run. `yields`: yield stress
-    (Pa) of each; `files`: member by member those of all speeds. Raises InputFileError for a file that cannot be read.
+    Both are by the region that decides. Without stress a speed is dangerous where it diverges inside the model, and CURVES have
+    NaN. `yields`: yield stress (Pa) of each; `files`: member by member those of all speeds. Raises InputFileError for a file
+    that cannot be read.
     """
     gave: dict[float, list[float]] = {speed: [] for speed in speeds}
     edge = TIP_POINTS.index("leading_edge")
     for (yield_stress, speed), file in zip(product(yields, speeds), files, strict=True):
-        run = read_speed(file)
-        stress = float(run.get("max_von_mises_last_revolution", [math.nan])[0]) / yield_stress
+        run = {"revolution_von_mises": np.full((1, 0), np.nan)} | read_speed(file)
+        events = yield_events(run, yield_stress, float(exit_of(run)["exit_revolution"]))
+        stress = events["max_von_mises_inside"][0] / yield_stress if run["revolution_von_mises"].size else np.nan
         curves = (float(run[f"rms_{name}"][edge]) for name in ("normal", "tangential"))
-        gave[speed] += [int(run["status"]), *curves, stress]
+        gave[speed] += [int(events["yield_danger"][0]), *curves, float(stress)]
     return gave
 
 

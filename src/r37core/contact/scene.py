@@ -10,6 +10,10 @@ from r37core.base.declared import Key, speed_keys
 from .casing import Casing
 
 
+HEAT_SHARE = 0.1
+"""Share of the friction's heat that enters the tip where a scene has no other."""
+
+
 @dataclass(frozen=True)
 class Rotor:
     """Blades whose roots stand still: all meet the same casing, and are coupled by what they wear of its lining and, where it
@@ -126,6 +130,9 @@ class Friction:
             words={"constant": False, "vector": True},
         ),
     ] = True
+    heat_share: Annotated[
+        float, Key("Share of the friction's heat that enters the tip, which melts by it; the rest wears off", ge=1e-3, le=1)
+    ] = HEAT_SHARE
 
 
 @dataclass(frozen=True)

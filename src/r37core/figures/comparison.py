@@ -99,10 +99,10 @@ def draw_comparison(
 
 
 def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> Figure:
-    """Bars of the speeds above yield in most revolutions, in some and ever, a panel per scene with its blades by their rank.
+    """Bars of dangerous and unknown speeds with a mark of sustained ones, a panel per scene with its blades by their rank.
 
-    Blades that cannot be told apart share a rank and a background. `scenes`: those that are drawn, or all. Of many blades the
-    first and the last are drawn; a row between them says how many are left out.
+    Before each name stand the places that its blade may have. `scenes`: those that are drawn, or all. Of many blades the first
+    and the last are drawn; a row between them says how many are left out.
     """
     scenes = [name for name in dict.fromkeys(ranking["scene"]) if scenes is None or name in scenes]
     tables = {scene: ranking[ranking["scene"] == scene].set_index("blade") for scene in scenes}
@@ -119,7 +119,7 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     contacts = ranking["contact"].unique()
     for axes, (scene, table) in zip(panels.flat, tables.items(), strict=False):
         _draw_bars(axes, table, named=len(contacts) > 1)
-        tied = len(table) > 1 and len(set(zip(table["rank"], table["contact"], strict=True))) == 1
+        tied = len(table) > 1 and not (table["rank_lowest"] > 1).any()
         title = f"{style.scene_words(scene)}{': cannot be ranked' if tied else ''}"
         axes.set(title=title, xlabel="speeds (rad/s): dangerous / unknown / sustained")
     if len(contacts) == 1 and contacts[0]:
@@ -154,18 +154,13 @@ def _draw_bars(axes: Axes, rows: pd.DataFrame, *, named: bool) -> None:
         if np.isfinite(end):
             numbers = " / ".join(f"{row[name]:.0f}" for name in (_DANGEROUS, _UNKNOWN, _SUSTAINED))
             axes.text(end + 0.02 * largest, position, numbers, va="center", fontsize=7)
-    # a rank is among blades of one contact; rows are in the order of both
-    rank = rows["rank"].astype(object).where(rows["rank"].notna(), "")
-    shared = pd.Series(list(zip(rank, rows["contact"].fillna(""), strict=True)))
-    ties = shared.duplicated(keep=False).values & (rank != "").values
-    group = (shared != shared.shift()).cumsum()
-    for _, places in pd.Series(positions)[ties].groupby(group[ties]):
-        axes.axhspan(places.min() - 0.48, places.max() + 0.48, color="0.5", alpha=0.15, linewidth=0.0, zorder=0.0)
-    names = [
-        "\n".join([f"{place}{' =' if tie else ''}  {blade}", *([contact] if named and contact else [])])
-        for blade, (place, contact), tie in zip(rows.index, shared, ties, strict=True)
-    ]
-    axes.set_yticks(positions, names)
+    labels = []
+    for blade, row in rows.iterrows():
+        # of a row that stands for several, or a blade without stress, they are not known
+        places = [f"{row[name]:.0f}" for name in ("rank_lowest", "rank_highest") if pd.notna(row[name])]
+        contact = row["contact"] if named and pd.notna(row["contact"]) else ""
+        labels.append(f"{' to '.join(dict.fromkeys(places))}  {blade}\n{contact}".strip())
+    axes.set_yticks(positions, labels)
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
     axes.set(xlim=(0.0, 1.45 * largest), ylim=(len(rows) - 0.5, -0.5))

@@ -163,8 +163,8 @@ FIGURES = (
         files={"ranking": "<results>/ranking.csv"},
         label="ranking",
         caption="Which blade? Length of the dangerous speeds of every blade (dark), and of the unknown ones, at which the "
-        "model is left before yield is passed (hatched), scene by scene, by rank. Blades whose brackets overlap, on one grey "
-        "ground (=), cannot be told apart. Upright line: length above yield in most later revolutions. Lines: what the dark "
+        "model is left before yield is passed (hatched), scene by scene, by rank. Before each name: places that the blade "
+        "may have, as blades whose brackets overlap cannot be told apart. Upright line: length above yield in most later revolutions. Lines: what the dark "
         "length is known to within; with members: the range that contains nine tenths of them.",
         arguments=lambda sweep: {"scenes": sweep.drawn["scene"]},
     ),

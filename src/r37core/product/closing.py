@@ -11,6 +11,7 @@ from r37core.base.io import InputFileError
 from r37core.base.rounding import rounded_to
 from r37core.results.closing import (
     counted,
+    extremes,
     interaction_title,
     lining_texts,
     remarks_on_contact,
@@ -30,7 +31,7 @@ _LENGTH, _UNKNOWN, _ = names(LENGTHS)
 _COLUMNS = (
     "worn_through_share", "note", "largest_stress_inside_pa", "largest_stress_inside_pa_low",
     "largest_stress_inside_pa_high", _LENGTH, _UNKNOWN, "length_most_revolutions_worst_rad_s", "ranges_dangerous",
-    "widest_range_from_rad_s", "widest_range_rad_s", "contact", "rank_over_scenes", "largest_gap_rad_s",
+    "widest_range_from_rad_s", "widest_range_rad_s", "contact", "rank_lowest", "rank_highest", "rank_over_scenes", "largest_gap_rad_s",
 )  # fmt: skip
 """Columns of summary.csv or ranking.csv that lines are made of, and that not every run has."""
 
@@ -120,19 +121,16 @@ def _ranked(file: Path, began: float) -> Iterator[str]:
 
 
 def _extremes(rows: pd.DataFrame, file: Path) -> Iterator[str]:
-    """Best and worst blades of each scene, with all that cannot be told apart from them."""
+    """Blades of each scene that may be the best and the worst, by `extremes`."""
     # of many scenes, as of a family, their tables say it
     for scene, table in rows.groupby("scene", sort=False) if rows["scene"].nunique() <= MOST_SCENES else ():
-        safest, longest = (table[table["rank"] == table["rank"].iloc[end]] for end in (0, -1))
-        if len(safest) < len(table):
-            verb = "is" if len(safest) == 1 else "are"
-            yield (
-                f"{scene}: {_named(safest)} {verb} dangerous at the fewest speeds ({_lengths(safest)}), "
-                f"{_named(longest)} at the most ({_lengths(longest)}); {file}"
-            )
+        safest, longest = (
+            f"{_named(some, 'or')} {'is' if len(some) == 1 else 'may be'} {{}} ({_lengths(some)})" for some in extremes(table)
+        )
+        if table["rank_lowest"].max() > 1:
+            yield f"{scene}: {safest.format('dangerous at the fewest speeds')}, {longest.format('at the most')}; {file}"
         elif len(table) > 1:
-            over = f"dangerous over {_lengths(table)}"
-            yield f"{scene}: {_named(table)} cannot be ranked ({over}); {file}"
+            yield f"{scene}: {_named(table)} cannot be ranked (dangerous over {_lengths(table)}); {file}"
 
 
 def _lengths(rows: pd.DataFrame) -> str:
@@ -151,12 +149,12 @@ def _lengths(rows: pd.DataFrame) -> str:
     return f"{text} from rest, {worst:.0f} sustained by the worst motion" if worst > high else text
 
 
-def _named(rows: pd.DataFrame) -> str:
-    """Names of blades, of many the first ones."""
+def _named(rows: pd.DataFrame, word: str = "and") -> str:
+    """Names of blades, of many the first ones; the `word` stands before the last."""
     *names, last = rows["blade"]
     if len(names) >= MOST_NAMED:
-        return f"{', '.join(names[:MOST_NAMED])} and {len(names) + 1 - MOST_NAMED} more"
-    return f"{', '.join(names)} and {last}" if names else last
+        return f"{', '.join(names[:MOST_NAMED])} {word} {len(names) + 1 - MOST_NAMED} more"
+    return f"{', '.join(names)} {word} {last}" if names else last
 
 
 def _over_scenes(rows: pd.DataFrame) -> list[str]:

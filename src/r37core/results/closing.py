@@ -57,6 +57,15 @@ def lining_texts(runs: Mapping[tuple[str, str], Mapping[str, Any]]) -> list[str]
     return lines
 
 
+def extremes(rows: Any) -> tuple[Any, Any]:
+    """Rows of a ranking that may be dangerous at the fewest speeds, and those that may be so at the most.
+
+    `rows`: of one scene and contact. None is surely better than the first, none surely worse than the last; a blade whose
+    bracket overlaps both is among both.
+    """
+    return rows[rows["rank_lowest"] == 1], rows[rows["rank_highest"] == len(rows)]
+
+
 def _span(values: Sequence[Any]) -> str:
     """The smallest and the largest of some values, or the one that they are."""
     ends = dict.fromkeys(f"{end(values):.3g}" for end in (min, max))

@@ -63,12 +63,14 @@ _LIMITS = {
     "friction_power": _Limit(
         Cause.HEAT,
         "melting_power",
-        "friction takes up to {:.3g} W over 20 revolutions; from {:.3g} W on the tenth that enters the tip melts it in 1 s",
+        "friction takes up to {:.3g} W over 20 revolutions; from {:.3g} W on the share of it that enters the tip "
+        "(friction.heat_share) melts it in 1 s",
     ),
     "friction_heat": _Limit(
         Cause.HEAT,
         "melting_power",
-        "friction makes up to {:.3g} J of heat; from {:.3g} J on the tenth that enters the tip melts it, if none flows off",
+        "friction makes up to {:.3g} J of heat; from {:.3g} J on the share of it that enters the tip "
+        "(friction.heat_share) melts it, if none flows off",
         "heat_so_far",
     ),
 }

@@ -7,7 +7,7 @@ from numpy.fft import rfft  # NumPy imports it when it is used, which would be i
 
 from r37core.contact.laws import used_thickness, wear_at_the_casing
 from r37core.contact.ring import RingMotion
-from r37core.contact.scene import Lining
+from r37core.contact.scene import HEAT_SHARE, Friction, Lining
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperators, judged_operator
@@ -25,8 +25,8 @@ _WEAR_LOBES = 20
 _ROUND_OFF = 1e-9
 """Relative margin of a bar's penetration at the casing; the compiled code has the same."""
 MELTING = 2.8e5
-"""Power of friction (W) per length of tip (m) that melts 4 mm2 of its section in a second: a tenth of it enters the blade, and
-steel takes 7 GJ/m3 until it is molten (3.8 MJ/(m3 K) over 1,400 K, and 1.7 GJ/m3)."""
+"""Power of friction (W) per length of tip (m) that melts 4 mm2 of its section in a second: HEAT_SHARE of it enters the blade,
+and steel takes 7 GJ/m3 until it is molten (3.8 MJ/(m3 K) over 1,400 K, and 1.7 GJ/m3)."""
 KEPT = LEADING_EDGE
 """Directions of the spectrum."""
 
@@ -209,9 +209,10 @@ def energy_balance(work: float, loss: float, change: float, stiffness_work: floa
     }
 
 
-def melting_power(model: ContactModel) -> float:
-    """Power of the friction (W) whose share of the tip melts it in a second."""
-    return float(MELTING * model.tip_lengths.sum())
+def melting_power(model: ContactModel, friction: Friction | None) -> float:
+    """Power of the friction (W) of which the share that enters the tip melts it in a second."""
+    more = HEAT_SHARE / friction.heat_share if friction else 1.0
+    return float(MELTING * model.tip_lengths.sum() * more)
 
 
 def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, Any]:
@@ -224,7 +225,7 @@ def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, Any]:
     return {
         "energy_residual_share": residual / max(parts) if max(parts) else 0.0,
         "bounded_share_of_time": (totals["steps_bounded"] / np.maximum(totals["steps"], 1.0)).max(),
-        "melting_power": melting_power(run.problem.model),
+        "melting_power": melting_power(run.problem.model, run.problem.scene.friction),
         **_so_far(run),
     }
 

@@ -47,7 +47,7 @@ MOTION = {
     "energy_residual_share": _number("1", "size of the energy residual over the largest of work, loss and energy change"),
     "friction_power": _number("W", "largest mean power of the friction over 20 revolutions"),
     "friction_heat": _number("J", "work of the friction over the whole run"),
-    "melting_power": _number("W", "power of the friction of which a tenth melts the tip in a second"),
+    "melting_power": _number("W", "power of the friction of which the share that enters the tip melts it in a second"),
     "motion_at_end": _number("1", "state of the motion at the end of the run", "i1", MotionAtEnd),
     "settled_revolution": _number("1", "revolution after which the run ended as it had settled, NaN where it did not"),
     "time_step": _number("s", "step of the time integration that was taken"),

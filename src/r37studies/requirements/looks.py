@@ -139,7 +139,7 @@ class JudgedBlade(BladeRuns):
             "largest_normal_force": totals["largest_force"],
             "bounded_share_of_time": totals["steps_bounded"] / max(totals["steps"], 1.0),
             "friction_heat": np.max(heat[window:] - heat[: len(heat) - window]),
-            "melting_power": melting_power(self.model),
+            "melting_power": melting_power(self.model, self.scene.friction),
         }
         if quadratic is not None:
             reached = (
