@@ -170,16 +170,16 @@ def test_stress_before_a_run_settles_is_known(contact, model, steel, lined):
 
 
 @pytest.mark.parametrize("ends", [(1300.0, 1340.0), (1340.0, 1300.0)])
-def test_a_run_up_has_the_largest_stress_about_each_speed(contact, model, steel, lined, ends):
+def test_a_run_up_has_the_largest_stress_about_each_speed(contact, model, steel, lined, ends, monkeypatch):
     """And all the wear of the run-up; next to speeds without a revolution that of the nearest."""
     stress, speeds, results = {"box": stress_operators(model, steel)["box"]}, [1300.0, 1320.0, 1340.0], ("stress", "wear")
     choice = replace(CHOICE, snapshots_per_revolution=31)
     blade = replace(lined, choice=choice, results=(*results, "spectrum"), stress=stress)
     runs = blade.run_up(*ends, 12.0, speeds)
+    run_up = RunUp(*ends, 12.0, 12, 0, False)
+    integration = RunUpIntegration(contact, blade.rising_scene, replace(choice, snapshot_revolutions=12), run_up)
     expected = record_run_up(
-        RunUpIntegration(
-            contact, blade.rising_scene, replace(choice, snapshot_revolutions=12), RunUp(*ends, 12.0, 12, 0, False)
-        ),
+        integration,
         results,
         highest_order=0,
         stress=stress["box"],
@@ -195,6 +195,14 @@ def test_a_run_up_has_the_largest_stress_about_each_speed(contact, model, steel,
     short = replace(blade, choice=replace(blade.choice, revolutions=4, snapshot_revolutions=4))
     assert heat > short.run_up(*ends, 12.0, speeds)["friction_heat"].max() > heat / 6.0
     assert runs["used_thickness"].min() == runs["used_thickness"].max() > expected["max_wear"][-1] > 0.0
+    # what comes before the exit counts, also of a run-up that diverges after it
+    monkeypatch.setattr(further_runs, "melting_power", lambda *_: 0.95 * heat)
+    monkeypatch.setattr(further_runs, "record_run_up", lambda *_, **__: expected | {"status": np.array(1)})
+    monkeypatch.setattr(RunUpIntegration, "__init__", lambda self, *_: self.__dict__.update(state=integration.state))
+    left = blade.run_up(*ends, 12.0, speeds).sel(speed=[*ends])
+    assert left["exit_revolution"].isnull().values.tolist() == [True, False]
+    assert left["max_von_mises_inside"].values.tolist() == [runs["max_von_mises_inside"].sel(speed=ends[0]), 0.0]
+    assert not left["status"].any()
 
 
 def test_a_motion_is_carried_on_in_a_new_lining(lined):

@@ -18,7 +18,7 @@ from .integration_choice import HEATED
 from .problem import Problem
 from .simulate import DIRECTIONS, LEADING_EDGE
 from .speed_arrays import PLACE_OF_STRESS, SPECTRUM
-from .state import TOTALS, SimulationRecord
+from .state import TOTALS, SimulationRecord, SimulationState
 from .status import RunStatus
 
 _WEAR_LOBES = 20
@@ -231,32 +231,36 @@ def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, Any]:
 
 
 def _so_far(run: FinishedRun) -> dict[str, Any]:
-    """Force, heat and bounded steps from the start to the end of each revolution, of all blades the most; NaN after the end.
+    """`numbers_so_far` of all blades the most, the heat of the whole run, and the power of the friction.
 
-    Between two marks of the totals the heat is a straight line, all else what it is at the later one. `friction_power`: the
-    largest mean over HEATED revolutions, or over a shorter run.
+    `friction_power`: the largest mean over HEATED revolutions, or over a shorter run.
     """
-    problem, shape = run.problem, (len(run.states), run.kept_revolutions)
-    forces, heats, bounded = (np.full(shape, np.nan) for _ in range(3))
-    for blade, state in enumerate(run.states):
-        samples, totals = zip((0, np.zeros((), TOTALS)), *(state.marks or [(state.samples, state.totals)]), strict=True)
-        marks, values = np.array(samples) / problem.choice.samples_per_revolution, np.stack(totals)
-        done = np.arange(1, min(int(marks[-1]), shape[1]) + 1)
-        later = np.searchsorted(marks, done)
-        forces[blade, : len(done)] = values["largest_force"][later]
-        bounded[blade, : len(done)] = values["steps_bounded"][later]
-        heats[blade, : len(done)] = np.interp(done, marks, values["friction_heat"])
-    heat = np.fmax.reduce(heats)
+    per_revolution = run.problem.choice.samples_per_revolution
+    of_blades = [numbers_so_far(state, per_revolution, run.kept_revolutions) for state in run.states]
+    most = {name: np.fmax.reduce([numbers[name] for numbers in of_blades]) for name in of_blades[0]}
+    heat = most["heat_so_far"]
     known = np.concatenate([[0.0], heat[np.isfinite(heat)]])
     window = min(HEATED, len(known) - 1)
-    powers = (known[window:] - known[: len(known) - window]) / (max(window, 1) * 2.0 * np.pi / problem.speed)
-    return {
-        "friction_power": powers.max(),
-        "friction_heat": known[-1],
-        "force_so_far": np.fmax.reduce(forces),
-        "heat_so_far": heat,
-        "bounded_so_far": np.fmax.reduce(bounded),
+    powers = (known[window:] - known[: len(known) - window]) / (max(window, 1) * 2.0 * np.pi / run.problem.speed)
+    return {"friction_power": powers.max(), "friction_heat": known[-1], **most}
+
+
+def numbers_so_far(state: SimulationState, per_revolution: int, revolutions: int) -> dict[str, np.ndarray]:
+    """Force, heat and bounded steps of one blade from the start to the end of each of so many revolutions.
+
+    NaN after the end. `per_revolution`: samples. Between two marks of the totals the heat is a straight line, all else what it
+    is at the later one.
+    """
+    samples, totals = zip((0, np.zeros((), TOTALS)), *(state.marks or [(state.samples, state.totals)]), strict=True)
+    marks, values = np.array(samples) / per_revolution, np.stack(totals)
+    done = np.arange(1, min(int(marks[-1]), revolutions) + 1)
+    later = values[np.searchsorted(marks, done)]
+    numbers = {
+        "force_so_far": later["largest_force"],
+        "heat_so_far": np.interp(done, marks, values["friction_heat"]),
+        "bounded_so_far": later["steps_bounded"],
     }
+    return {name: extended(each, revolutions) for name, each in numbers.items()}
 
 
 def casing_waves(

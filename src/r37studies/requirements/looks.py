@@ -28,10 +28,11 @@ from r37core.stress.operator import judged_operator
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
-from r37core.time_integration.kept_numbers import melting_power, wear_numbers
+from r37core.time_integration.kept_numbers import melting_power, numbers_so_far, wear_numbers
 from r37core.time_integration.settling import remaining_drift, window_of
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
+from r37core.time_integration.status import RunStatus
 from r37studies.blade_runs import BladeRuns
 from r37studies.run_up_integration import RunUpIntegration
 from r37studies.run_up_revolutions import record_run_up
@@ -92,7 +93,8 @@ class JudgedBlade(BladeRuns):
     def run_up(self, start: float, stop: float, revolutions: float, speeds: Sequence[float]) -> xr.Dataset:
         """Largest stress about each of the `speeds` (rad/s) in a run-up within so many revolutions, and all its wear.
 
-        It begins with the revolutions of the sweep's runs, in which the lobes grow. One that diverges does so at all speeds.
+        It begins with the revolutions of the sweep's runs, in which the lobes grow. Speeds that it comes to before it leaves the
+        model's limits are dangerous or below yield, those after that unknown. One that diverges first does so at all speeds.
         """
         before, scene = self.choice.revolutions, self.rising_scene
         kept = before if self.choice.snapshots_per_revolution else 0
@@ -117,7 +119,9 @@ class JudgedBlade(BladeRuns):
             if name in numbers
         }
         values["exit_revolution"] = np.where((is_near & ~is_inside).any(axis=1), exit_revolution, np.nan)
-        same = {"status": numbers["status"]} | {name: limited[name] for name in OF_LIMITS if name in limited}
+        # a divergence beyond the model says nothing of the speeds before
+        status = numbers["status"] if np.isnan(exit_revolution) else RunStatus.COMPLETED
+        same = {"status": status} | {name: limited[name] for name in OF_LIMITS if name in limited}
         if scene.lining:
             worn = wear_numbers(integration.state.wear, 1, scene.lining, np.zeros(1))
             same |= {name: worn[name] for name in ("used_thickness", "worn_through_share")}
@@ -131,15 +135,16 @@ class JudgedBlade(BladeRuns):
         power: over many seconds heat flows off.
         """
         state, quadratic, count = integration.state, self.model.quadratic, len(numbers["speed"])
-        totals, window = state.totals, min(self.choice.revolutions, count)
-        marks = [(0, 0.0), *((samples, float(each["friction_heat"])) for samples, each in state.marks)]
-        ends = np.arange(count + 1) * self.choice.samples_per_revolution
-        heat = np.interp(ends, *np.transpose([*marks, (state.samples, float(totals["friction_heat"]))]))
+        totals, so_far = state.totals, numbers_so_far(state, self.choice.samples_per_revolution, count)
+        heat = np.concatenate([np.zeros(self.choice.revolutions), so_far["heat_so_far"]])
+        # the most until the end of each revolution
+        so_far["heat_so_far"] = np.maximum.accumulate(heat[-count:] - heat[:count])
         run = {
             "largest_normal_force": totals["largest_force"],
             "bounded_share_of_time": totals["steps_bounded"] / max(totals["steps"], 1.0),
-            "friction_heat": np.max(heat[window:] - heat[: len(heat) - window]),
+            "friction_heat": so_far["heat_so_far"][-1],
             "melting_power": melting_power(self.model, self.scene.friction),
+            **so_far,
         }
         if quadratic is not None:
             reached = (
