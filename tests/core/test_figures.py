@@ -349,7 +349,10 @@ def test_the_places_that_a_blade_may_have_stand_before_its_name():
     ]
     figure = comparison.draw_ranking(ranking(*rows))
     first, second = figure.axes
-    assert [ticks(axes) for axes in figure.axes] == [["1  B", "2 to 3  A", "2 to 3  C"], ["1 to 3  C", "1 to 3  A", "1 to 3  B"]]
+    assert [ticks(axes) for axes in figure.axes] == [
+        ["1  B", "2 to 3  A", "2 to 3  C"],
+        ["1 to 3  C", "1 to 3  A", "1 to 3  B"],
+    ]
     assert [axes.get_title() for axes in figure.axes] == ["x", "y: cannot be ranked"]
     assert figure.get_suptitle() == "contact: 11 patches; kinematics: linear"
     assert sorted(patch.get_width() for patch in first.patches) == [5.0, 5.0, 5.0, 5.0, 20.0, 22.0]
@@ -365,7 +368,8 @@ def test_ranks_are_among_blades_of_one_contact_and_of_many_blades_some_are_left_
     figure = comparison.draw_ranking(table.assign(contact=["8 points", "8 points", "12 patches", "12 patches"]))
     assert ticks(figure.axes[0]) == ["1  B\n8 points", "2  A\n8 points", "1  Mine\n12 patches", "Other\n12 patches"]
     assert figure.get_suptitle() == ""
-    many = comparison.draw_ranking(ranking(*((f"blade_{number}", "x", 1 + number, 1 + number, float(number)) for number in range(90))))
+    rows = [(f"blade_{number}", "x", 1 + number, 1 + number, float(number)) for number in range(90)]
+    many = comparison.draw_ranking(ranking(*rows))
     named = [f"{1 + number}  blade_{number}" for number in range(90)]
     assert ticks(many.axes[0]) == [*named[:30], "(30 more)", *named[60:]]
 

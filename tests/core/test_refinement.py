@@ -21,8 +21,8 @@ from r37core.config import ConfigError, command_line_document
 from r37core.config.settings import merged_settings
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import load_settings, read_settings
-from r37core.time_integration.speed_file import write_speed
 from r37core.results.events import Danger
+from r37core.time_integration.speed_file import write_speed
 
 
 def test_a_range_has_its_coarse_speeds_and_its_end():

@@ -178,13 +178,7 @@ def test_a_run_up_has_the_largest_stress_about_each_speed(contact, model, steel,
     runs = blade.run_up(*ends, 12.0, speeds)
     run_up = RunUp(*ends, 12.0, 12, 0, False)
     integration = RunUpIntegration(contact, blade.rising_scene, replace(choice, snapshot_revolutions=12), run_up)
-    expected = record_run_up(
-        integration,
-        results,
-        highest_order=0,
-        stress=stress["box"],
-        yield_stress=1e9,
-    )
+    expected = record_run_up(integration, results, highest_order=0, stress=stress["box"], yield_stress=1e9)
     revolutions = pd.DataFrame({name: expected[name] for name in ("speed", "max_von_mises")})
     for speed in speeds:
         away = (revolutions["speed"] - speed).abs()

@@ -27,9 +27,9 @@ class RefinementChoice:
 
     `windows` come first. Then an interval is halved when one of its speeds is dangerous or unknown and the other is not so;
     when rms or stress inside the model change by more than `change` of the larger; and when a peak of at least `prominence` of
-    the largest reaches within `peak` of its height in it. Changes below `prominence` of the largest do not count. A change by more than `steep_change`
-    counts down to `steep_prominence`: an interaction narrower than the interval leaves no more than its foot. At most
-    `largest_share` of the grid is run, where the response is largest first.
+    the largest reaches within `peak` of its height in it. Changes below `prominence` of the largest do not count. A change by
+    more than `steep_change` counts down to `steep_prominence`: an interaction narrower than the interval leaves no more than
+    its foot. At most `largest_share` of the grid is run, where the response is largest first.
     """
 
     windows: tuple[Window, ...]

@@ -9,7 +9,6 @@ from r37core.base.declared import Key, speed_keys
 
 from .casing import Casing
 
-
 HEAT_SHARE = 0.1
 """Share of the friction's heat that enters the tip where a scene has no other."""
 

@@ -31,7 +31,8 @@ _LENGTH, _UNKNOWN, _ = names(LENGTHS)
 _COLUMNS = (
     "worn_through_share", "note", "largest_stress_inside_pa", "largest_stress_inside_pa_low",
     "largest_stress_inside_pa_high", _LENGTH, _UNKNOWN, "length_most_revolutions_worst_rad_s", "ranges_dangerous",
-    "widest_range_from_rad_s", "widest_range_rad_s", "contact", "rank_lowest", "rank_highest", "rank_over_scenes", "largest_gap_rad_s",
+    "widest_range_from_rad_s", "widest_range_rad_s", "contact", "rank_lowest", "rank_highest", "rank_over_scenes",
+    "largest_gap_rad_s",
 )  # fmt: skip
 """Columns of summary.csv or ranking.csv that lines are made of, and that not every run has."""
 

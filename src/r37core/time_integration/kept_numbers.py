@@ -236,8 +236,8 @@ def _so_far(run: FinishedRun) -> dict[str, Any]:
     `friction_power`: the largest mean over HEATED revolutions, or over a shorter run.
     """
     per_revolution = run.problem.choice.samples_per_revolution
-    of_blades = [numbers_so_far(state, per_revolution, run.kept_revolutions) for state in run.states]
-    most = {name: np.fmax.reduce([numbers[name] for numbers in of_blades]) for name in of_blades[0]}
+    single_blades = [numbers_so_far(state, per_revolution, run.kept_revolutions) for state in run.states]
+    most = {name: np.fmax.reduce([numbers[name] for numbers in single_blades]) for name in single_blades[0]}
     heat = most["heat_so_far"]
     known = np.concatenate([[0.0], heat[np.isfinite(heat)]])
     window = min(HEATED, len(known) - 1)

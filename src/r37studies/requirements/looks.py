@@ -93,8 +93,8 @@ class JudgedBlade(BladeRuns):
     def run_up(self, start: float, stop: float, revolutions: float, speeds: Sequence[float]) -> xr.Dataset:
         """Largest stress about each of the `speeds` (rad/s) in a run-up within so many revolutions, and all its wear.
 
-        It begins with the revolutions of the sweep's runs, in which the lobes grow. Speeds that it comes to before it leaves the
-        model's limits are dangerous or below yield, those after that unknown. One that diverges first does so at all speeds.
+        It begins with the revolutions of the sweep's runs, in which the lobes grow. Speeds before it leaves the model's limits
+        are dangerous or below yield, those after that unknown. One that diverges first does so at all speeds.
         """
         before, scene = self.choice.revolutions, self.rising_scene
         kept = before if self.choice.snapshots_per_revolution else 0
