@@ -12,17 +12,13 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.sweep.blade_sweep import CAMPBELL, blade_sweep, shared_speeds
 from r37core.sweep.driver import SIMULATIONS, Driver
 from r37core.sweep.recipe import LOGGER, recipes, structure_attributes
-from r37core.time_integration.initial_motion import InitialMotion
 
 from .jobs import parallel_results
 from .stages import simulations_in_words
 
 
-def response_file(settings: Settings, folder: Path, cores: int, motion: InitialMotion | None = None) -> Path:
-    """File of the response of the one blade in the one scene of `settings`, in `folder`. Raises what the simulations raise.
-
-    `motion`: that the blade starts in, else from rest.
-    """
+def response_file(settings: Settings, folder: Path, cores: int) -> Path:
+    """File of the response of the one blade in the one scene of `settings`, in `folder`. Raises what the simulations raise."""
     ((blade, scene),) = settings.speed_plans
     run, attributes = Named(blade=blade, scene=scene), structure_attributes(settings, blade)
     sweep, speeds = blade_sweep(settings, blade, scene), shared_speeds(settings, blade, scene)
@@ -37,7 +33,7 @@ def response_file(settings: Settings, folder: Path, cores: int, motion: InitialM
     if speeds.plan.refined:
         (campbell,) = parallel_results([partial(sweep.file, CAMPBELL, cache_folder(), attributes)], 1)
     name = f"{blade}/{scene}"
-    driver = Driver(folder, cache_folder(), attributes, run_all, motion)
+    driver = Driver(folder, cache_folder(), attributes, run_all)
     return driver.run({name: sweep}, speeds, campbell, {name: str(Sweep(settings).provenance(run))})[name]
 
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from r37core.base.dataset_file import read_dataset
 from r37core.base.io import FILE_ATTRIBUTES, Named, scratch_folder
@@ -15,7 +14,6 @@ from r37core.config import ConfigError
 from r37core.config.remarks import remarks_on_blades
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.closing import remarks_on_contact, remarks_on_limits
-from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 
 from .arguments import Speeds, speed_key, speed_keys
 from .calculation import response_file, structure_file
@@ -96,8 +94,6 @@ def simulate(
     speed: float | None = None,
     *,
     speed_rpm: float | None = None,
-    initial_displacement: ArrayLike | None = None,
-    initial_velocity: ArrayLike | None = None,
     fidelity: str | None = None,
     results: Sequence[str] | None = None,
     config: Path | str | None = None,
@@ -109,9 +105,6 @@ def simulate(
         scene: A name, or the result of `r37.scene`.
         speed: Angular speed (rad/s).
         speed_rpm: The same in revolutions per minute, in place of `speed`.
-        initial_displacement, initial_velocity: State of the blade at the start (velocity per s), in the coordinates of
-            `r37.reduced_model`, shape (coordinates,). By default it starts at rest. Parts in modes that are not stepped are
-            left out; the dataset has their share of the energy, and the attribute `initial_state`.
         fidelity: An accuracy level in place of the configuration's.
         results: Results to compute, in place of the scene's list: `["stress", "wear"]`.
         config: A config.yaml in place of the shipped one. It gives names, structure and levels.
@@ -121,7 +114,7 @@ def simulate(
         completed, 1: diverged), a scalar; and others, each with its unit.
 
     Raises:
-        ConfigError: For bad input, and for a displacement that reaches into casing or lining.
+        ConfigError: For bad input.
         ValueError: For an impossible shape, mesh, model or time step.
         BucklingError: For a blade that its load buckles.
 
@@ -137,12 +130,7 @@ def simulate(
     except ConfigError as error:
         # the one speed stands in a list of them
         raise ConfigError(re.sub(r"\bspeeds(_rpm)?\.0\b", r"speed\1", str(error))) from None
-    try:
-        motion = InitialMotion.from_arrays(initial_displacement, initial_velocity)
-        response = _response(call, 1, motion)
-    except InitialMotionError as error:
-        raise ConfigError(str(error)) from None
-    return response.isel(speed=0).assign_attrs({} if motion is None else motion.attributes)
+    return _response(call, 1).isel(speed=0)
 
 
 @stages()
@@ -199,15 +187,13 @@ def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> x
     return read_dataset(file).assign_attrs(FILE_ATTRIBUTES | dict(made) | blade.told)
 
 
-def _response(call: Call, cores: int, motion: InitialMotion | None = None) -> xr.Dataset:
-    """The response of the call's one blade in its one scene, at the speeds of its settings, from rest or in `motion`."""
+def _response(call: Call, cores: int) -> xr.Dataset:
+    """The response of the call's one blade in its one scene, at the speeds of its settings."""
     call.tell_remarks()
     (blade,), (scene,) = call.blades, call.scenes
     with scratch_folder() as folder:
-        response = read_dataset(response_file(call.settings, folder, cores, motion))
+        response = read_dataset(response_file(call.settings, folder, cores))
     name = f"{blade.label} in {scene.label}"
-    # free flight is what a start in motion may be for
-    if motion is None:
-        tell(remarks_on_contact([(name, response["largest_normal_force"].values)]))
+    tell(remarks_on_contact([(name, response["largest_normal_force"].values)]))
     tell(remarks_on_limits(response, f"{name}: "))
     return response.assign_attrs(call.told)

@@ -58,32 +58,6 @@ def test_profile_table_refusals(config_copy, old, new, message):
         load(config_copy)
 
 
-def test_tolerance_picks_the_cheapest_level_that_keeps_it(config_copy):
-    file = config_copy / "config/fidelity.yaml"
-    levels = load_yaml(file)
-    for level in levels.values():
-        del level["measured"]
-    for name, error, cost in (("draft", 0.3, 0.1), ("standard", 0.08, 0.5), ("paper", 0.02, 1.0)):
-        levels[name]["measured"] = {"error": error, "cpu_s_per_run": cost}
-    file.write_text(yaml.safe_dump(levels))
-    for tolerance, level in ((0.5, "draft"), (0.1, "standard"), (0.02, "paper")):
-        assert load(config_copy, fidelity="auto", tolerance=tolerance).fidelity_name == level
-    assert load(config_copy, fidelity="draft", tolerance=0.02).fidelity_name == "draft"
-    with pytest.raises(ConfigError, match=r"tolerance: found 0\.001; measured errors .*; accept more"):
-        load(config_copy, fidelity="auto", tolerance=0.001)
-    # direct contact on points has errors of its own
-    for name, error in (("draft", 0.5), ("standard", 0.4), ("paper", 0.3)):
-        levels[name]["measured"]["error_on_points"] = error
-    file.write_text(yaml.safe_dump(levels))
-    assert load(config_copy, fidelity="auto", tolerance=0.4, scenes=["abradable", "direct"]).fidelity_name == "standard"
-    assert load(config_copy, fidelity="auto", tolerance=0.1, scenes=["abradable"]).fidelity_name == "standard"
-    patches = {"boundary": {"contact": "patches"}}
-    assert load(config_copy, fidelity="auto", tolerance=0.1, scenes=["direct"], structure=patches).fidelity_name == "standard"
-    message = r"found 0\.1; measured errors .* draft 0\.5, .*or take structure\.boundary\.contact: pat"
-    with pytest.raises(ConfigError, match=message):
-        load(config_copy, fidelity="auto", tolerance=0.1, scenes=["direct"])
-
-
 def test_structure_hash_follows_what_the_blade_depends_on(with_blades, config_copy):
     before = load(config_copy)
     assert structure_hash(load(config_copy, blades=["Ref"]), "Ref") == structure_hash(before, "Ref")
@@ -161,8 +135,8 @@ def starts(lines, *expected, where="--config: "):
 
 def test_mistakes_in_one_file_are_told_once_each(config_copy):
     """In it, among names, which nearly every other check looks up, in extensions, and in one section."""
-    lines = told(config_copy, tolerance=5, campbell={"modes": 99}, interaction={})
-    starts(lines, "top level: found unknown key", "tolerance: found 5", "campbell.modes: found 99")
+    lines = told(config_copy, fidelity=5, campbell={"modes": 99}, interaction={})
+    starts(lines, "top level: found unknown key", "fidelity: found 5", "campbell.modes: found 99")
     lines = told(config_copy, fidelity="finest", blades=["Reff"], scenes=["wet"])
     fidelity = "fidelity: found 'finest'; allowed: draft, standard"
     starts(lines, fidelity, "blades: found 'Reff'; allowed: Ref, L50", "scenes: found 'wet'; allowed: abradable, direct")

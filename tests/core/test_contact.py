@@ -12,13 +12,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from integration_cases import AT_ONCE, model_of_node
 from integration_runs import ENGINES, whole_run
+from motion_at_start import MotionAtStart
 from reference_engine import ReferenceSimulation
 from scipy.optimize import brentq
 
 from r37core.contact import laws
 from r37core.contact.casing import casing_axes
 from r37core.contact.laws import wear_at_the_casing
-from r37core.time_integration.initial_motion import InitialMotion
 
 BAR = Lining(5e-3, 20e9, 5e9, 1e6, bar_width=1e-3)
 
@@ -303,7 +303,7 @@ def test_a_node_sliding_along_the_cone_does_not_touch(engine, cone_angle, touche
 def test_the_normal_force_does_no_work_along_the_casing(aside):
     """Without friction the mode along the casing swings on as if nothing touched, while the normal one bounces."""
     model, choice = moving_along([NORMAL, aside], [5e3, 6e3]), IntegrationChoice(1e-6, 2, 62)
-    start = InitialMotion(np.array([-3e-4, -3e-4]), None)
+    start = MotionAtStart(np.array([-3e-4, -3e-4]))
     (_, state, record), (_, alone, _) = (
         whole_run(model, 1000.0, Scene(Casing(clearance, lobes=0), damping_ratio=0.0), choice, start)
         for clearance in (1e-4, 1.0)

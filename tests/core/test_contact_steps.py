@@ -29,12 +29,12 @@ from integration_runs import (
     times,
     whole_run,
 )
+from motion_at_start import MotionAtStart
 from reference_engine import ReferenceSimulation, complementary
 from scipy.integrate import solve_ivp
 
 from r37core.contact.scene import Rotor
 from r37core.time_integration import problem as problem_module
-from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem, UnstableStepError, stable_problem
 from r37core.time_integration.simulate import Simulation, rest_state
@@ -436,7 +436,7 @@ def test_an_edge_that_moves_further_than_its_contact_node(engine, integrator, no
     model = with_moving_edge(model, np.linspace(1.5, -1.0, nodes))
     scene = Scene(Casing(stop, lobes=0), damping_ratio=0.0)
     choice = IntegrationChoice(1e-7, 1, 100, integrator=integrator)
-    _, state, _ = whole_run(model, 10000.0, scene, choice, InitialMotion(np.array([-1e-3]), None), engine)
+    _, state, _ = whole_run(model, 10000.0, scene, choice, MotionAtStart(np.array([-1e-3])), engine)
     assert state.totals["steps_in_contact"] > 0
     assert state.totals["largest_penetration"] == pytest.approx(0.5 * stop, rel=0.01)
 
@@ -448,7 +448,7 @@ def test_an_edge_that_passes_a_thin_lining_before_its_contact_node(integrator):
     model = oscillator(5000.0) if integrator == CENTRAL_DIFFERENCE else with_static_modes(oscillator(5000.0), 1e-9)
     model = with_moving_edge(model, np.linspace(5.0, 1.0, 50))
     lining = replace(LINING, thickness=1e-3, elastic_modulus=20e9, contact_length=1e-4, bar_width=None)
-    scene, start = Scene(Casing(1e-4, lobes=0), lining, damping_ratio=0.0), InitialMotion(np.array([-5e-4]), None)
+    scene, start = Scene(Casing(1e-4, lobes=0), lining, damping_ratio=0.0), MotionAtStart(np.array([-5e-4]))
     choice = IntegrationChoice(1e-7, 1, 100, integrator=integrator)
     ours, theirs = (
         whole_run(model, 10000.0, scene, choice, start, engine)[1].totals["largest_penetration"] for engine in ENGINES

@@ -9,6 +9,7 @@ from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import RING, SCENES, model_of_node, oscillator, random_model, with_static_modes
 from integration_runs import ENGINES, assert_close, assert_same_record, assert_same_state, free_motion, times
 from integration_runs import whole_run as run_of
+from motion_at_start import MotionAtStart
 from pydantic import TypeAdapter
 
 from r37core.base.declared import Key
@@ -19,7 +20,6 @@ from r37core.config.declaring import section_of, si
 from r37core.config.scenes import DampingSection, SceneEntry
 from r37core.config.section import either
 from r37core.contact.scene import DampingRow, DampingTable, Rotor
-from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS, exact_modal, recursion
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.rotor_blades import blade_problems
@@ -43,7 +43,7 @@ def with_damping(scene, damping_ratio):
 @pytest.mark.parametrize("name", RUNS)
 def test_equal_ratios_give_the_bits_of_the_number(name, engine):
     model = BLADE
-    motion = InitialMotion(1e-6 * np.ones(len(model.to_reduced)), None)
+    motion = MotionAtStart(1e-6 * np.ones(len(model.to_reduced)))
     (one, ours, found), (other, theirs, expected) = (
         run_of(model, 12_000.0, with_damping(RUNS[name], damping), CHOICE, motion, engine)
         for damping in (0.03, DampingTable((10.0, 9e3), (0.03, 0.03)))
@@ -69,7 +69,7 @@ def test_so_does_every_ratio(integrator):
 def test_a_mode_between_two_frequencies_decays_as_the_closed_form(engine, frequency, ratio):
     omega = 2.0 * np.pi * frequency
     model, choice = with_static_modes(oscillator(omega), 1e-9), replace(CHOICE, time_step=5e-6)
-    start = InitialMotion(np.array([1e-3]), None)
+    start = MotionAtStart(np.array([1e-3]))
     simulation, _, record = run_of(model, 1000.0, with_damping(FREE, RISING), choice, start, engine)
     assert_close(record.samples[:, 0], free_motion(omega, ratio, times(simulation, 62), 1e-3, 0.0), 1e-10)
 
@@ -101,7 +101,7 @@ ROWS = (DampingRow(0.03, 1, 2000.0), DampingRow(0.002), DampingRow(0.01, 1, 1000
 def test_the_logarithmic_decrement_of_each_mode_is_that_of_its_ratio(integrator, speed, first, mode):
     """Of successive maxima, ln(u_k/u_(k+n)) = 2 pi n xi/sqrt(1 - xi^2)."""
     frequencies, ratio = [4000.0, 5000.0], (first, 0.002)[mode]
-    start = InitialMotion(1e-3 * np.eye(2)[mode], None)
+    start = MotionAtStart(1e-3 * np.eye(2)[mode])
     choice = replace(CHOICE, time_step=5e-6, samples_per_revolution=400, revolutions=4, integrator=integrator)
     model = model_of_node([[1.0, 1.0], [0.0, 0.0], [0.0, 0.0]], frequencies)
     if integrator == EXACT_MODAL:
@@ -119,7 +119,7 @@ def test_the_logarithmic_decrement_of_each_mode_is_that_of_its_ratio(integrator,
 @pytest.mark.parametrize("name", RUNS)
 def test_rows_are_a_table_over_the_frequencies_of_their_modes(name, engine):
     model, speed, scene = BLADE, 12_000.0, RUNS[name]
-    motion = InitialMotion(1e-6 * np.ones(len(model.to_reduced)), None)
+    motion = MotionAtStart(1e-6 * np.ones(len(model.to_reduced)))
     stepped = Problem(model, speed, scene, CHOICE).blade
     hertz = stepped.frequencies / (2.0 * np.pi)
     table = DampingTable((hertz[0], hertz[1], hertz[2]), (0.0625, 0.125, 0.001))

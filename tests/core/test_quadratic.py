@@ -7,13 +7,13 @@ import pytest
 from defaults import Casing, Friction, Scene
 from integration_cases import LINING, RING
 from integration_runs import ENGINES, in_all_directions
+from motion_at_start import MotionAtStart
 from quadratic_cases import CHOICE, FAR, LENGTH, beam_model, free_blade, held
 from scipy.integrate import solve_bvp, solve_ivp
 
 from r37core.contact.scene import Rotor
 from r37core.rom.quadratic_terms import PATH_SHARES, followed_modes
 from r37core.rom.reduced_model import contact_model
-from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 from r37core.time_integration.rotor_blades import mistuned
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
@@ -120,7 +120,7 @@ def frequency_of(model, amplitude):
 def start_at_rest(simulation, state, displacement):
     """Put a displacement of the stepped modes into a state, without velocity."""
     coordinates = simulation.problem.model.to_reduced @ (simulation.problem.blade.modes @ displacement)
-    InitialMotion(coordinates, None).put(simulation.problem, state)
+    MotionAtStart(coordinates).put(simulation.problem, state)
 
 
 def test_the_velocity_of_what_follows_is_the_rate_of_its_displacement(contact):
@@ -311,15 +311,3 @@ def test_modes_that_come_near_to_each_other_are_followed():
     np.testing.assert_allclose(followed_modes(overlap), overlap, atol=1e-15)
     crossed = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.1, 0.99, 0.0]])
     np.testing.assert_allclose(followed_modes(crossed), [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]], atol=1e-15)
-
-
-def test_a_start_is_refused_where_the_bending_tip_reaches_the_casing(contact):
-    """Inwards by the square of its motion, on the side on which linear theory has it clear, too."""
-    simulation = Simulation(contact, SPEED, BARE, CHOICE)
-    shape = simulation.problem.contact.displacement_operator[0, 0, 0]
-    unit = np.zeros_like(simulation.problem.blade.frequencies)
-    # as far as the clearance of the leading edge, in linear theory
-    unit[0] = 1.05 * 0.356e-3 / abs(shape) * np.sign(shape)
-    start_at_rest(simulation, simulation.start(), unit)
-    with pytest.raises(InitialMotionError, match="contact node 1"):
-        start_at_rest(simulation, simulation.start(), 1.4 * unit)

@@ -259,7 +259,11 @@ def test_odd_yaml_ends_in_one_line(tmp_path, text):
 
 def test_lists_of_numbers_on_the_command_line(config_copy):
     """Snakemake hands them on as texts."""
-    given = {"speeds": ["900", "1e3", {"start": "1100", "stop": "1200", "step": "50"}], "blades": ["Ref"], "tolerance": 0.1}
+    given = {
+        "speeds": ["900", "1e3", {"start": "1100", "stop": "1200", "step": "50"}],
+        "blades": ["Ref"],
+        "interactions": {"prominence": 0.1},
+    }
     settings = read_settings(config_copy, command_line_document(given))
     assert settings.speed_plans["Ref", "direct"].certain == (900.0, 1000.0, 1100.0, 1150.0, 1200.0)
     for value, found in (("nan", "nan"), ("inf", "inf"), ("abc", "abc"), ("-900", "-900")):

@@ -9,6 +9,7 @@ import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator, random_model
 from integration_runs import in_all_directions
+from motion_at_start import MotionAtStart
 
 from r37core.base.dataset_file import read_dataset
 from r37core.contact.laws import used_thickness, wear_at_the_casing, worn
@@ -17,7 +18,6 @@ from r37core.results.datasets import write_sweep_dataset
 from r37core.results.regions import read_judged
 from r37core.results.response import write_response
 from r37core.stress.operator import StressOperator
-from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.kept_numbers import wear_numbers
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.rotor_simulation import RotorSimulation
@@ -32,7 +32,7 @@ from r37core.time_integration.settling import (
 )
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
-from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.speed_run import numbers_of_run, run_speed, simulation_of
 from r37core.time_integration.state import SimulationState
 from r37core.time_integration.status import RunStatus
 from r37core.time_integration.time_grid import TimeGrid
@@ -40,10 +40,13 @@ from r37core.time_integration.time_grid import TimeGrid
 FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
 SPEED = 1000.0
 
-SWINGING = InitialMotion.from_arrays([1e-4], None)
+SWINGING = MotionAtStart([1e-4])
 """Displacement (m) of the one mode as its run starts."""
 
-kept_of = partial(run_speed, spectrum_highest_order=31, wear_angles=90)
+
+def kept_of(model, speed, scene, choice, results, motion=None, **more):
+    run = simulation_of(model, speed, scene, choice).run(*filter(None, [motion]))
+    return numbers_of_run(run, results, spectrum_highest_order=31, wear_angles=90, **more)
 
 
 def with_tip(normal, tangential):

@@ -17,12 +17,12 @@ from integration_runs import (
     times,
     whole_run,
 )
+from motion_at_start import MotionAtStart
 
 from r37core.contact.casing import casing_axes
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration import integration_choice
-from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.integrators import (
     CENTRAL_DIFFERENCE,
     EXACT_MODAL,
@@ -48,7 +48,7 @@ def test_mass_against_a_rigid_stop():
     scene = Scene(Casing(stop, lobes=0), damping_ratio=0.0)
     errors = []
     for step in (4e-7, 1e-7):
-        choice, motion = IntegrationChoice(step, 2, 1000), InitialMotion(np.array([start]), None)
+        choice, motion = IntegrationChoice(step, 2, 1000), MotionAtStart(np.array([start]))
         simulation, state, record = whole_run(oscillator(frequency), 1000.0, scene, choice, motion)
         time = times(simulation, len(record.samples))
         hit = np.arccos(stop / start) / frequency

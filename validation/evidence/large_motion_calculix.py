@@ -19,7 +19,7 @@ from r37core.fem.solver import lowest_modes
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.generate import generate_mesh
 from r37core.rom.reduced_model import contact_model
-from r37core.time_integration.initial_motion import InitialMotion
+from r37core.time_integration.segments import own_increments
 from r37core.time_integration.simulate import Simulation
 
 from .blade_runs import mesh_of, reduced_model
@@ -145,7 +145,12 @@ class FreeBlade:
         """Times (s) up to an `end`, and radial and tangential motion of the leading edge (m), from where a load held it."""
         simulation, u = self.simulation, self.held(load, size)
         state, problem = simulation.start(), simulation.problem
-        InitialMotion(problem.model.to_reduced @ (problem.blade.modes @ u), None).put(problem, state)
+        rate, stepping, quadratic = np.zeros_like(u), problem.blade.recursion, problem.contact.quadratic
+        problem.contact.put_followers(u, rate)
+        state.displacement[:] = u
+        # forces kick at an instant, and the velocity is that in the middle of the kick
+        kick = stepping.inverse * quadratic.force(u) / (1.0 + stepping.keep)
+        state.increment[:] = own_increments(problem).increment(0, u, rate) - kick
         per_sample = 2.0 * np.pi / SPEED / problem.choice.samples_per_revolution
         samples = simulation.advance_samples(state, int(end / per_sample)).samples
         return per_sample * np.arange(1, len(samples) + 1), samples[:, 1:3]

@@ -147,7 +147,7 @@ class Config(Section):
     scenes_file: FileName = option("File with the scenes", "config/scenes.yaml")
     blades: AllOrNames = option("Blades to run")
     scenes: AllOrNames = option("Scenes to run")
-    fidelity: Name = option("Accuracy level, or auto: the cheapest level within the tolerance")
+    fidelity: Name = option("Accuracy level")
     speeds: SpeedList = option("Speeds to simulate, as numbers and ranges", [SpeedRange(start=750.0, stop=2000.0)])
     speeds_rpm: RpmList | LeftOut = left_out("The same speeds in revolutions per minute; results stay in rad/s")
     speeds_for: list[SpeedRule] = option("Other speeds for some blades or scenes; the first entry that fits counts", [])
@@ -155,9 +155,6 @@ class Config(Section):
     operating: OperatingSection | LeftOut = left_out("Speeds in operation, which results are judged by as well")
     interactions: Interactions = Interactions()
     refinement: RefinementSection = RefinementSection()
-    tolerance: float = option(
-        "Accepted relative error of rms, displacement and stress at an interaction; fidelity auto uses it", 0.05, ge=1e-6, le=1
-    )
     run: Run = Run()
     campbell: CampbellSection = CampbellSection()
 

@@ -29,7 +29,7 @@ LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 
 
 def what_is_named_is_there(settings: Settings) -> None:
-    """Level, blades and scenes that are named, also of speeds, are in their files; `auto` has a level within the tolerance."""
+    """Level, blades and scenes that are named, also of speeds, are in their files."""
     refusals = ConfigRefusals()
     for name in ("fidelity_name", "blade_names", "scene_names"):
         refusals.of(getattr, settings, name)

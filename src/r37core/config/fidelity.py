@@ -1,17 +1,15 @@
 """fidelity.yaml: accuracy levels."""
 
 import math
-from collections.abc import Mapping
-from typing import Annotated, Any, Self
+from typing import Annotated, Any
 
-from pydantic import Field, RootModel, model_validator
+from pydantic import Field, RootModel
 
 from r37core.contact.scene import Scene
 from r37core.rom.reduction_choice import ReductionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .declaring import declared_by, section_of, si_form
-from .document import Document
 from .section import ByName, LeftOut, Section, Speed, left_out, option, refused
 
 _LARGEST_SIGNAL = 2**31
@@ -35,14 +33,11 @@ Error = Annotated[float, Field(ge=0, le=1e6)]
 
 
 class Measured(Section):
-    """Error and cost on the worst measured blade (docs/accuracy.md), for `fidelity: auto`."""
+    """Error on the worst measured blade (docs/accuracy.md), for verdicts and rankings."""
 
-    error: Error | LeftOut = left_out("Mean relative error of rms, except with bare casing on points; auto needs it")
+    error: Error | LeftOut = left_out("Mean relative error of rms, except with bare casing on points")
     error_on_points: Error | LeftOut = left_out("Mean relative error of rms with bare casing on points")
-    error_of_blades: dict[str, Error] = option(
-        "Error of some blades by name, in place of the others, for verdicts and rankings", {}
-    )
-    cpu_s_per_run: float = option("CPU seconds per run", ge=1e-6, le=1e9)
+    error_of_blades: dict[str, Error] = option("Error of some blades by name, in place of the others", {})
 
     def error_of(self, point_contact: bool, blade: str = "") -> float:
         """The error of runs with direct contact on points, or of others, or of a blade; NaN where that was not measured."""
@@ -125,30 +120,3 @@ class Level(Section):
 
 class Levels(RootModel[ByName[Level]]):
     """fidelity.yaml, accuracy levels by name."""
-
-    @model_validator(mode="after")
-    def _auto_is_no_level(self) -> Self:
-        if "auto" in self.root:
-            raise refused("the level 'auto'", "another name; fidelity: auto picks a level", "auto")
-        return self
-
-
-def cheapest_level(
-    levels: Mapping[str, Level], tolerance: float, point_contact: bool, config: Document, document: Document
-) -> str:
-    """The cheapest level within the tolerance, for contact `point_contact` or not, of the file `document`.
-
-    Raises ConfigError, at the tolerance of `config`, where there is none.
-    """
-    measured = {name: level.measured for name, level in levels.items() if level.measured}
-    errors = {name: error for name, each in measured.items() if not math.isnan(error := each.error_of(point_contact))}
-    fitting = [level for level, error in errors.items() if error <= tolerance]
-    if not fitting:
-        known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
-        raise config.error(
-            ("tolerance",),
-            f"found {tolerance:g}; measured errors of the levels in {document.name}: {known}; "
-            "accept more, or name a level under fidelity"
-            + (", or take structure.boundary.contact: patches" if point_contact else ""),
-        )
-    return min(fitting, key=lambda level: measured[level].cpu_s_per_run)

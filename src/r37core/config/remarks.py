@@ -14,10 +14,6 @@ LARGE_FRICTION = 0.2
 
 def remarks_of_pipeline(settings: Settings) -> Iterator[str]:
     """Remarks of the pipeline before a run starts."""
-    measured = settings.fidelity.measured
-    if settings.config.fidelity == "auto" and measured is not None:
-        error = 100.0 * measured.error_of(bool(direct_on_points(settings)[0]))
-        yield f"fidelity auto: level {settings.fidelity_name}, measured error {error:g}%"
     yield from remarks_on_input(settings)
     yield from remarks_on_unlike_contact(settings)
 

@@ -25,7 +25,7 @@ from .config_file import Config, StructureSection
 from .declaring import si, si_form
 from .document import ConfigRefusals, Document
 from .families import AnyEntry, Designs
-from .fidelity import Level, cheapest_level
+from .fidelity import Level
 from .scenes import SceneEntry
 from .section import ExtensionSection, Section, plain
 from .speed_section import UNITS, SpeedRule, key_of_speeds
@@ -139,15 +139,9 @@ class Settings:
 
     @cached_property
     def fidelity_name(self) -> str:
-        """The level that is named, or for `auto` the cheapest one whose measured error is within the tolerance.
-
-        Raises ConfigError for a name that is not in the file, and where no level is within the tolerance.
-        """
-        if self.config.fidelity != "auto":
-            self.document.known(("fidelity",), [self.config.fidelity], self.levels, self.levels_document)
-            return self.config.fidelity
-        point_contact = bool(direct_on_points(self)[0])
-        return cheapest_level(self.levels, self.config.tolerance, point_contact, self.document, self.levels_document)
+        """The level to run. Raises ConfigError for a name that is not in the file."""
+        self.document.known(("fidelity",), [self.config.fidelity], self.levels, self.levels_document)
+        return self.config.fidelity
 
     @property
     def fidelity(self) -> Level:

@@ -39,7 +39,7 @@ _GOODMAN = {
 }
 
 VARIABLES = {
-    **(of_run.STATUS | _MOTION | of_run.OF_KIND | of_run.GIVEN_MOTION | of_run.SPECTRUM | _STRESS | _GOODMAN),
+    **(of_run.STATUS | _MOTION | of_run.OF_KIND | of_run.SPECTRUM | _STRESS | _GOODMAN),
     **(of_run.OF_NODES | of_run.WEAR | of_run.WAVES),
 }
 """Variables over the speeds of a response."""

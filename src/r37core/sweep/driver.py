@@ -13,7 +13,6 @@ from r37core.adaptive.rounds import first_round, measure_members, round_after
 from r37core.base.dataset_file import read_dataset
 from r37core.machine_code.kept import content_digest
 from r37core.results.response import write_response
-from r37core.time_integration.initial_motion import InitialMotion
 
 from .blade_sweep import BladeSweep, SharedSpeeds
 from .parts import simulated
@@ -37,14 +36,13 @@ class Driver:
     """Driver of sweeps whose files lie in a `folder`, one folder each, and those of structures in `structures`.
 
     A broken run goes on from the files that lie there: each has a name that follows from all that its content does.
-    `attributes`: as of `structure_attributes`; `run_all`: on which processes; `motion`: that simulations start in.
+    `attributes`: as of `structure_attributes`; `run_all`: on which processes.
     """
 
     folder: Path
     structures: Path
     attributes: Mapping[str, Any]
     run_all: RunAll = one_by_one
-    motion: InitialMotion | None = None
 
     def run(
         self, sweeps: Mapping[str, BladeSweep], speeds: SharedSpeeds, campbell: Path | None, about: Mapping[str, str]
@@ -62,7 +60,7 @@ class Driver:
             """Files at some speeds (rad/s), those of one sweep after those of another; a process imports no more for one."""
             new = self.run_all(
                 [
-                    partial(simulated, self.folder / name, speed, sweep.task, started, about[name], code, self.motion)
+                    partial(simulated, self.folder / name, speed, sweep.task, started, about[name], code)
                     for (name, sweep), started in zip(sweeps.items(), models, strict=True)
                     for speed in asked
                 ],

@@ -11,7 +11,6 @@ from r37core.base.speeds import exact_text
 from r37core.base.variable import Variable
 from r37core.machine_code.kept import kept_file
 from r37core.time_integration.carrying import CarriedMotion
-from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.speed_arrays import ARRAYS
 from r37core.time_integration.speed_file import read_speed, read_status, write_speed
 from r37core.time_integration.speed_job import run_job
@@ -34,22 +33,15 @@ def part(folder: Path, speed: float, made_of: object, write: Callable[[Path], No
 
 
 def simulated(
-    folder: Path,
-    speed: float,
-    task: str,
-    models: Sequence[tuple[str, str]],
-    about: str,
-    code: Sequence[str],
-    motion: InitialMotion | None,
+    folder: Path, speed: float, task: str, models: Sequence[tuple[str, str]], about: str, code: Sequence[str]
 ) -> Path:
     """File of a simulation at a speed (rad/s), run now where it is missing: as run_job; `models` with their digests."""
-    start = motion and [each if each is None else each.tolist() for each in vars(motion).values()]
     files, digests = zip(*models, strict=True)
 
     def run(file: Path) -> None:
-        run_job(exact_text(speed), str(file), task, about, *files, motion=motion)
+        run_job(exact_text(speed), str(file), task, about, *files)
 
-    return part(folder, speed, [task, list(digests), start, code], run)
+    return part(folder, speed, [task, list(digests), code], run)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from .state import SimulationRecord, SimulationState
 class FinishedRun:
     """A run that is done: the problem of each blade, its state at the end and its record, and how the run ended.
 
-    `initial_energy`, `energy_change`, `contact_work` (J): of all blades together, see Simulation. `frequency_factors`: of the
+    `energy_change`, `contact_work` (J): of all blades together, see Simulation. `frequency_factors`: of the
     blades' frequencies. This is the run of a single blade; that of a rotor is a RotorRun.
     """
 
@@ -23,7 +23,6 @@ class FinishedRun:
     states: Sequence[SimulationState]
     records: Sequence[SimulationRecord]
     ending: Ending
-    initial_energy: float
     energy_change: float
     contact_work: float
     frequency_factors: Sequence[float] = (1.0,)

@@ -17,9 +17,7 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-from .carrying import CarriedMotion
 from .compiled.engine import Passage, advance_in_lockstep, go_on
-from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
 from .problem import Problem
 from .rotor_blades import NO_ROTOR, blade_problems
@@ -63,10 +61,8 @@ class RotorSimulation:
             state.wear = shared if self.rotor.shared_lining else unworn + casing.initial_wear
         return states
 
-    def run(self, motion: InitialMotion | CarriedMotion | None = None) -> RotorRun:
-        """The run of the choice from the start on. Raises InitialMotionError for a rotor in motion."""
-        if motion is not None:
-            raise InitialMotionError("initial_displacement, initial_velocity: the blades of a rotor start at rest")
+    def run(self) -> RotorRun:
+        """The run of the choice from the start on."""
         states, revolutions = self.start(), self.problem.choice.revolutions
         energy = self.energy(states)
         samples = revolutions * self.problem.choice.samples_per_revolution
@@ -78,7 +74,6 @@ class RotorSimulation:
             states=states,
             records=records,
             ending=Ending(revolutions),
-            initial_energy=energy,
             energy_change=self.energy(states) - energy,
             contact_work=sum(blade.work(state) for blade, state in zip(self.blades, states, strict=True)),
             frequency_factors=self.rotor.frequency_factors,

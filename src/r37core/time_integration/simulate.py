@@ -12,7 +12,6 @@ from r37core.rom.contact_model import ContactModel
 from .carrying import CarriedMotion
 from .compiled.engine import CompiledEngine
 from .finished_run import FinishedRun
-from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
 from .segments import Segments, own_segment
@@ -52,20 +51,17 @@ class Simulation:
         simulation.engine = cls.engine_class(problem, segments or own_segment(problem), beside)
         return simulation
 
-    def start(self, motion: InitialMotion | CarriedMotion | None = None) -> SimulationState:
-        """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
-
-        Raises what InitialMotion.put raises.
-        """
+    def start(self, motion: CarriedMotion | None = None) -> SimulationState:
+        """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into."""
         state = rest_state(self.problem)
         if motion is not None:
             motion.put(self.problem, state)
         return state
 
-    def run(self, motion: InitialMotion | CarriedMotion | None = None) -> FinishedRun:
+    def run(self, motion: CarriedMotion | None = None) -> FinishedRun:
         """The run of the choice from the start on, which ends as it has settled where that is chosen; see has_settled.
 
-        Snapshots are those of the last `snapshot_revolutions`. Raises what InitialMotion.put raises.
+        Snapshots are those of the last `snapshot_revolutions`.
         """
         problem, choice, state = self.problem, self.problem.choice, self.start(motion)
         per_revolution, energy = choice.samples_per_revolution, self.energy(state)
@@ -92,7 +88,6 @@ class Simulation:
             states=[state],
             records=[record],
             ending=Ending(state.samples // per_revolution, settled, growth, steps),
-            initial_energy=energy,
             energy_change=self.energy(state) - energy,
             contact_work=self.work(state),
         )

@@ -73,11 +73,6 @@ OF_KIND = {
 }
 """Variables of KindNumbers."""
 
-GIVEN_MOTION = {
-    "initial_energy": _number("J", "energy of the vibration at the start"),
-    "initial_energy_left_out": _number("1", "share of the given motion's energy that lies in modes which are not stepped"),
-}
-
 SPECTRUM = {
     "amplitude": Variable(("engine_order",), "m", "amplitude of the leading edge's normal displacement", "f4"),
     "amplitude_tangential": Variable(("engine_order",), "m", "amplitude of the leading edge's tangential displacement", "f4"),
@@ -216,7 +211,7 @@ CARRIED = {
 """Motion as the run ends: CarriedMotion."""
 
 ARRAYS = {
-    **(STATUS | SIZES | MOTION | OF_KIND | GIVEN_MOTION | SPECTRUM | LAST_STRESS | PLACE_OF_STRESS | OF_NODES | WEAR | WAVES),
+    **(STATUS | SIZES | MOTION | OF_KIND | SPECTRUM | LAST_STRESS | PLACE_OF_STRESS | OF_NODES | WEAR | WAVES),
     **(OF_SCENE | OF_LINING | OF_CASING | OF_STRESS | AXES | _IN_FILE | OF_ROTOR | CARRIED),
 }
 """All arrays that the file of a run may have."""

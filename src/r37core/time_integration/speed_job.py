@@ -13,7 +13,6 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import read_contact_model
 from r37core.stress.operator import read_stress_operators
 
-from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .speed_file import write_speed
 from .speed_run import run_speed, simulation_of
@@ -40,11 +39,10 @@ def simulate(input: Any, output: Any, params: Any) -> None:
     run_job(params.job["speed"], output[0], params.job["task"], str(params.about), *as_list(input.models))
 
 
-def run_job(speed: str, output: str, task: str, about: str, *models: str, motion: InitialMotion | None = None) -> None:
+def run_job(speed: str, output: str, task: str, about: str, *models: str) -> None:
     """Simulate at a speed (rad/s) and write the file, with the attributes `about`; `task` is that of a sweep's plan.
 
-    `models`: files of the contact model and, where stress is wanted, of its operator. `motion`: that the blade starts in, if
-    not at rest.
+    `models`: files of the contact model and, where stress is wanted, of its operator.
 
     Raises InputFileError, and what Problem and `run_speed` raise.
     """
@@ -58,7 +56,6 @@ def run_job(speed: str, output: str, task: str, about: str, *models: str, motion
         wanted.results,
         **wanted.kept,
         stress=operators,
-        motion=motion,
     )
     write_speed(run, output, json.loads(about))
 

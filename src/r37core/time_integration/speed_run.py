@@ -15,7 +15,6 @@ from . import kept_numbers
 from .carrying import CarriedMotion
 from .fatigue_numbers import fatigue_numbers
 from .finished_run import FinishedRun
-from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .lining_at_tip import lining_at_tip
 from .motion_kind import kind_numbers
@@ -37,25 +36,16 @@ def run_speed(
     spectrum_highest_order: int,
     wear_angles: int,
     stress: StressOperators | None = None,
-    motion: InitialMotion | None = None,
 ) -> dict[str, np.ndarray]:
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
-    Returned are arrays of speed_arrays.ARRAYS, by name: those of `results` and all others that blade, scene and `motion` have.
-    `motion`: in which the blade starts, if not at rest. `stress`: operators by region. A rotor ends when one of its blades
-    diverges, whose snapshots are kept then.
-    Raises what Problem raises, and InitialMotionError.
+    Returned are arrays of speed_arrays.ARRAYS, by name: those of `results` and all others that blade and scene have.
+    `stress`: operators by region. A rotor ends when one of its blades diverges, whose snapshots are kept then.
+    Raises what Problem raises.
     """
-    simulation = simulation_of(model, speed, scene, choice)
-    left_out = None if motion is None else motion.left_out(simulation.problem)
-    run = simulation.run(motion)
+    run = simulation_of(model, speed, scene, choice).run()
     sizes = {"spectrum_highest_order": spectrum_highest_order, "wear_angles": wear_angles}
-    numbers = numbers_of_run(run, results, **sizes, stress=stress)
-    if left_out is not None:
-        numbers["initial_energy_left_out"] = np.array(left_out)
-        if "energy" in results:
-            numbers["initial_energy"] = np.array(run.initial_energy)
-    return numbers
+    return numbers_of_run(run, results, **sizes, stress=stress)
 
 
 def simulation_of(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Simulation | RotorSimulation:

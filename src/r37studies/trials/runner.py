@@ -67,7 +67,7 @@ def _run(case: Case, model: ContactModel, recovery: StressOperators | None, spee
     choice = _choice(case, model, speed)
     # compiled before it is timed
     simulation_of(model, speed, case.scene, choice)
-    simulate = partial(run_speed, model, speed, case.scene, choice, case.results, motion=None, stress=recovery, **case.kept)
+    simulate = partial(run_speed, model, speed, case.scene, choice, case.results, stress=recovery, **case.kept)
     run, cpu = timed(simulate)
     count_simulation(int(run["status"]))
     _, file_cpu = timed(partial(write_speed, run, file, {}))
