@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from r37core.figures import style
+from r37core.results.measures import leading_edge
 
 from .dataset import runs_of
 from .tables import CASE
@@ -23,7 +24,7 @@ _RANGE = ["low_speed_rad_s", "high_speed_rad_s"]
 
 
 def draw_run_ups(run_ups: xr.Dataset, title: str, blade: str, scene: str) -> Figure:
-    """Leading edge's rms, stress and wear of every revolution, over its speed and over the revolutions since the change began.
+    """Leading edge's rms, stress and wear of every revolution, over its mean speed.
 
     Colour is the rate, dashes are run-downs, crosses a lining that was worn before.
     """
@@ -32,44 +33,37 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, blade: str, scene: str) -> Fig
     # what another scene computes is in the dataset, too; runs that diverged at once have nothing
     there = [name for name in _QUANTITIES if name in run_ups and any(run[name].notnull().any() for run in runs)]
     shown = {name: _QUANTITIES[name] for name in there or ["rms_normal"]}
-    figure, grid = style.panels(len(shown), 2, 1.6 * len(shown) + 0.8, sharex="col", sharey="row")
+    figure, grid = style.panels(len(shown), 1, 1.6 * len(shown) + 0.8, sharex=True)
+    panels = dict(zip(shown, grid[:, 0], strict=True))
     rates = sorted({abs(float(run["rate"])) for run in runs})
     colours = dict(zip(rates, colormaps["viridis"](np.linspace(0.0, 0.9, len(rates))), strict=True))
     for run in runs:
         marker = "." if run.sizes["revolution"] < _FEW_REVOLUTIONS else None
-        since = run["revolution"] - run["revolutions_before"]
-        for row, (name, (_, scale)) in zip(grid, shown.items(), strict=True):
-            values = run[name].sel(tip_point="leading_edge") if "tip_point" in run[name].dims else run[name]
-            for axes, along in zip(row, (run["speed"], since), strict=True):
-                axes.plot(
-                    along,
-                    scale * values,
-                    color=colours[abs(float(run["rate"]))],
-                    linestyle=_DIRECTIONS[_direction(run)],
-                    marker=_LININGS["worn"] if run["worn"] else marker,
-                    markevery=0.05 if run["worn"] else None,
-                    markersize=3 if run["worn"] else 2,
-                    linewidth=0.9,
-                )
-    for row, (name, (label, _)) in zip(grid, shown.items(), strict=True):
-        row[0].set_ylabel(label)
+        for name, axes in panels.items():
+            axes.plot(
+                run["speed"],
+                shown[name][1] * leading_edge(run)[name],
+                color=colours[abs(float(run["rate"]))],
+                linestyle=_DIRECTIONS[_direction(run)],
+                marker=_LININGS["worn"] if run["worn"] else marker,
+                markevery=0.05 if run["worn"] else None,
+                markersize=3 if run["worn"] else 2,
+                linewidth=0.9,
+            )
+    for name, axes in panels.items():
+        axes.set_ylabel(shown[name][0])
         if there and name != "max_wear":
-            row[0].set_yscale("log")
-            low, high = row[0].get_ylim()
-            row[0].set_ylim(max(low, _FAINT * high), high)
+            axes.set_yscale("log")
+            low, high = axes.get_ylim()
+            axes.set_ylim(max(low, _FAINT * high), high)
         if name == "max_von_mises":
-            for axes in row:
-                style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])}, named=True)
-    if not there:
-        for axes in grid.flat:
+            style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])}, named=True)
+        if not there:
             style.say(axes, style.ALL_DIVERGED)
-    grid[-1, 0].set_xlabel(style.RUN_UP_LABEL)
-    grid[-1, 1].set_xlabel("revolutions since the change began")
-    if there:
-        grid[-1, 1].set_xscale("log")
-    style.rpm_axis(grid[0, 0], most_ticks=5)
+    axes.set_xlabel(style.RUN_UP_LABEL)
+    style.rpm_axis(grid[0, 0])
     figure.suptitle(f"run-ups: {title}, leading edge")
-    style.legend_below(figure, grid[:, 0], 6, _keys(runs, colours))
+    style.legend_below(figure, panels.values(), 6, _keys(runs, colours))
     return figure
 
 

@@ -91,11 +91,10 @@ EXTENSION = Extension(
             draw="r37studies.search.figures.draw_designs",
             files={"search": DATASET},
             label="designs",
-            caption="Designs of the search; small is good. Left: the best value of each objective so far among designs that "
+            caption="Designs of the search; small is good. First the best value of each objective so far among designs that "
             "keep all constraints, over the number of designs. Dashed: the start; dotted: the end of the first, quasi-random "
-            "designs. Right: the objectives against each other, or a single one over the rounds. Designs that break a "
-            "constraint are pale. Of those in orange no other that keeps the constraints is better in all objectives. Bars: "
-            "standard deviation by chance.",
+            "designs. Then the objectives against each other. Designs that break a constraint are pale. Of those in orange no "
+            "other that keeps the constraints is better in all objectives. Bars: standard deviation by chance.",
             category="Search",
         ),
     ),
