@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from r37core.config import ConfigError, Document, Settings, command_line_document
-from r37core.config.cross_checks import history_speeds_are_run
 from r37core.config.messages import single_line
 from r37core.config.remarks import remarks_at_end, remarks_on_input
 from r37core.product.extensions import EXTENSIONS, READER
@@ -28,10 +27,6 @@ _JUDGING = "requirements"
 
 _OF_A_RUN = ("run", *_SPEEDS, *(extension.name for extension in EXTENSIONS if extension.name != _JUDGING))
 """Sections of config.yaml that say what a run of the workflow makes, and nothing of a single simulation."""
-
-_READER = replace(READER, checks=tuple(check for check in READER.checks if check is not history_speeds_are_run))
-"""A call names its speeds: of those with a stress history it has the ones that it runs."""
-
 
 C = TypeVar("C", bound=Choice)
 
@@ -66,7 +61,7 @@ class Call:
         asked = {} if self.results is None else {scene.name: {"results": self.results} for scene in self.scenes}
         scenes = above(self.scenes, command_line_document(asked, self.name))
         root = Configuration(document).root
-        return _READER.load_settings(document, root, blades_above=above(self.blades), scenes_above=scenes)
+        return READER.load_settings(document, root, blades_above=above(self.blades), scenes_above=scenes)
 
     @property
     def told(self) -> dict[str, str]:

@@ -48,7 +48,7 @@ def write_run(call: Call, folder: Path) -> None:
     tables: dict[str, Path] = {}
     files = {
         "blades": {name: _local_entry(entry, root, tables) for name, entry in blades.content.items()},
-        "scenes": {name: _run_histories(name, entry, call) for name, entry in settings.scene_designs.document.content.items()},
+        "scenes": settings.scene_designs.document.content,
         "fidelity": settings.levels_document.content,
     }
     # first, so that a call that was killed here knows its folder again
@@ -76,16 +76,6 @@ def _local_entry(entry: Mapping[str, Any], root: Path, tables: dict[str, Path]) 
             changed[key] = str(name)
             tables[str(name)] = source
     return changed
-
-
-def _run_histories(name: str, entry: Mapping[str, Any], call: Call) -> dict[str, Any]:
-    """An entry of scenes.yaml with the stress histories of those speeds alone that the call runs."""
-    settings, keys = call.settings, ("stress_history_speeds_rad_s", "stress_history_speeds_rpm")
-    if not any(key in entry for key in keys):
-        return dict(entry)
-    kept = {key: value for key, value in entry.items() if key not in keys}
-    run = {speed for (_, scene), plan in settings.speed_plans.items() if scene == name for speed in plan.certain}
-    return {**kept, keys[0]: [speed for speed in settings.scene_designs.entries[name].stress_history_speeds() if speed in run]}
 
 
 def _write(content: Mapping[str, Any], file: Path) -> None:

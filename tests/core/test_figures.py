@@ -427,7 +427,6 @@ def test_interactions_are_circles_whose_area_is_their_length_above_yield(dataset
     assert crosses == [[1900.0, pytest.approx(0.5 * bottom)], [1000.0, pytest.approx(4 * 1000.0 / (2 * np.pi))]]
     assert {"Ref 1B/4, 20 rad/s", "L50 1B/6, 5 rad/s", "Ref, 49 rad/s"} <= set(texts(axes.texts))
     assert "no order" in ticks(axes)
-    assert texts(axes.get_legend().get_texts()) == ["20 rad/s", "5 rad/s"]
     assert {*BLADES, "diverged"} == set(texts(figure.legends[0].get_texts()))
     assert "no interaction was found" in texts(scenes_of(figure)[1].texts)
 
@@ -498,14 +497,12 @@ def test_a_run_without_interactions_says_so_and_of_many_scenes_the_longest_are_d
     assert [axes.get_title() for axes in scenes_of(figure)] == scenes[:6]
 
 
-def test_scenes_share_a_scale_and_sizes_that_are_not_drawn_to_it_have_no_key(datasets):
-    for length, key in ((10.0, ["10 rad/s"]), (2.0, ["2 rad/s"]), (0.5, None)):
+def test_scenes_share_a_scale(datasets):
+    for length in (10.0, 2.0, 0.5):
         figure = draw_interactions(datasets, {}, {"scene": "direct", "length_dangerous_rad_s": length})
         first, second = (circles(axes)[0][2] for axes in scenes_of(figure)[:2])
         # no circle is too small to be seen
         assert second == pytest.approx(max(length / 20.0 * first, 25.0))
-        legend = scenes_of(figure)[1].get_legend()
-        assert (legend and texts(legend.get_texts())[:1]) == key
 
 
 def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):

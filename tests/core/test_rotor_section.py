@@ -37,7 +37,7 @@ def test_a_rotor_is_drawn_from_a_seed():
     assert fewer.frequency_factors[1:] == rotor.frequency_factors[2:] and fewer.angles[1] == rotor.angles[2]
 
 
-@pytest.mark.parametrize("table", ["{ 1: 0.4, 3: -0.7 }", '{ "1": 0.4, "3": -0.7 }', "{ 01: 0.4, '3': -0.7 }"])
+@pytest.mark.parametrize("table", ["{ 1: 0.4, 3: -0.7 }", '{ "1": 0.4, "3": -0.7 }', "{ 1: 0.4, '3': -0.7 }"])
 def test_tables_by_number_stand_in_a_file(config_copy, table):
     """The number of a blade is a number or a text there, and the schema for editors allows both."""
     scenes = config_copy / "config/scenes.yaml"
@@ -51,7 +51,7 @@ def test_tables_by_number_stand_in_a_file(config_copy, table):
     edit(scenes, "0.4", "4000")
     with pytest.raises(jsonschema.ValidationError, match="4000 is greater than the maximum"):
         jsonschema.validate(load_yaml(scenes), schema)
-    with pytest.raises(ConfigError, match=r"^config/scenes\.yaml:\d+: rotor_\w+\.rotor\.mistuning_percent\.0?1: found 4000"):
+    with pytest.raises(ConfigError, match=r"^config/scenes\.yaml:\d+: rotor_\w+\.rotor\.mistuning_percent\.1: found 4000"):
         read_settings(config_copy)
 
 
@@ -63,7 +63,6 @@ NO_NUMBER = "allowed: the number of a blade, from 1 to 1000"
     [
         ({"longer_m": {0: 1e-5}}, rf"longer_m\.0: found the key 0; {NO_NUMBER}"),
         ({"longer_m": {1001: 1e-5}}, rf"longer_m\.1001: found the key 1001; {NO_NUMBER}"),
-        ({"longer_m": {"1": 1e-5, 1: 2e-5}}, r"longer_m: found blade 1 twice; allowed: each blade once"),
     ],
 )
 def test_what_no_rotor_has_is_refused_in_one_line(keys, message):

@@ -63,7 +63,7 @@ def test_a_scene_has_one_height():
     "rotor",
     [
         {"rotor": {"blades": 4, "mistuning_percent": {1: 0.4, 3: -0.7}}},
-        {"rotor": {"blades": 4, "mistuning_percent": {"1": 0.4, "03": -0.7}}},
+        {"rotor": {"blades": 4, "mistuning_percent": {"1": 0.4, "3": -0.7}}},
         {"rotor": {"blades": 4, "mistuning_percent": {np.int64(1): 0.4, np.int8(3): np.float32(-0.7)}}},
         {"rotor.blades": 4, "rotor.mistuning_percent.1": 0.4, "rotor.mistuning_percent.3": -0.7},
     ],

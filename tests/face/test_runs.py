@@ -180,10 +180,6 @@ def test_the_configuration_counts_unless_an_argument_replaces_it(config, written
     assert [plan.certain for plan in settings.speed_plans.values()] == [(pytest.approx(942.4778),)]
     r37.run(results=["stress"], config=config, folder=tmp_path / "b")
     assert {settings.results_of(*pair) for settings, _ in written[-1:] for pair in settings.speed_plans} == {("stress",)}
-    # histories of speeds that are not run are left out, as of a single call
-    scene = r37.scene("abradable", config=config, stress_history_speeds_rad_s=[1150, 1900], name="history")
-    r37.run("Ref", scene, [1000, 1150], config=config, folder=tmp_path / "c")
-    assert written[-1][0].scenes["history"].stress_history_speeds == (1150.0,)
 
 
 def test_texts_that_look_like_numbers_stay_texts(tmp_path):

@@ -81,17 +81,6 @@ def pairs_not_covered(settings: Settings, operating: OperatingRange) -> list[tup
     return [pair for pair, plan in plans if not operating.is_covered(np.array(sorted(plan.certain)))]
 
 
-def history_speeds_are_run(settings: Settings) -> None:
-    """Stress histories are wanted at speeds that are simulated in their scene."""
-    for name, chosen in settings.scenes.items():
-        entry = settings.scene_designs.entries[name]
-        key = "stress_history_speeds_rpm" if entry.stress_history_speeds_rpm else "stress_history_speeds_rad_s"
-        for value, speed in zip(getattr(entry, key), chosen.stress_history_speeds, strict=True):
-            if not any(speed in settings.speed_plans[blade, name].certain for blade in settings.blade_names):
-                allowed = "speeds that are simulated (add it to speeds or speeds_for in config.yaml)"
-                raise settings.scene_designs.document.refusal(f"{value:g}", allowed, name, key)
-
-
 def slowest_speeds_can_be_run(settings: Settings) -> None:
     """Neither the slowest run of each scene nor its revolution has too many steps."""
     for scene, speed in slowest_speeds(settings).items():
@@ -217,7 +206,6 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     what_is_named_is_there,
     simulations_can_be_planned,
     windows_have_crossings,
-    history_speeds_are_run,
     slowest_speeds_can_be_run,
     matrices_hold_their_terms,
     kinematics_can_be_had,

@@ -1,12 +1,10 @@
 """rotor of a scene: the blades that meet it together, and how they differ."""
 
 import re
-from collections import Counter
-from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
-from pydantic import BeforeValidator, Field, WithJsonSchema, WrapValidator
+from pydantic import BeforeValidator, Field
 
 from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Rotor
@@ -21,27 +19,13 @@ MOST_BLADES = 1000
 
 
 def _number(key: Any) -> str:
-    """The number of a blade as text without leading zeros; raises the error of a key that is none."""
-    text = str(key).lstrip("0") if isinstance(key, str) or type(key) is int else ""
-    if not re.fullmatch("[1-9][0-9]{0,3}", text) or int(text) > MOST_BLADES:
+    """The number of a blade as text; raises the error of a key that is none."""
+    if not re.fullmatch("[1-9][0-9]{0,3}", text := str(key)) or int(text) > MOST_BLADES:
         raise refused(f"the key {key!r}", f"the number of a blade, from 1 to {MOST_BLADES}")
     return text
 
 
-def _number_table(table: Any, checked: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
-    """The table as it is checked; raises the error of what is no table, and of two values of a blade."""
-    if not isinstance(table, Mapping):
-        raise refused(repr(table), "a value for each number of a blade, as in {1: 0.4, 2: -0.7}")
-    values = checked(table)
-    twice = [number for number, times in Counter(map(_number, table)).items() if times > 1]
-    if twice:
-        raise refused(f"blade {twice[0]} twice", "each blade once")
-    return values
-
-
-_Number = Annotated[str, BeforeValidator(_number), WithJsonSchema({"type": "string", "pattern": "^[0-9]+$"})]
-
-BladeTable = Annotated[dict[_Number, T], WrapValidator(_number_table)]
+BladeTable = dict[Annotated[str, BeforeValidator(_number)], T]
 """Values by numbers of blades, which are the texts "1", "2", ... of a checked table."""
 
 LEAST_APART = 0.1

@@ -93,7 +93,9 @@ class SceneKeys(Section):
         ["spectrum", "stress"],
         json_schema_extra={"uniqueItems": True},
     )
-    stress_history_speeds_rad_s: EachOnce[Speed] = option("Speeds at which the largest stress of every revolution is kept", [])
+    stress_history_speeds_rad_s: EachOnce[Speed] = option(
+        "Speeds at which the largest stress of every revolution is kept, as far as they are run", []
+    )
     stress_history_speeds_rpm: EachOnce[Rpm] = option("The same speeds in revolutions per minute", [])
 
     def _check(self) -> None:

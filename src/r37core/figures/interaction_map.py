@@ -82,12 +82,8 @@ def draw_interactions(
     scenes = [scene for scene in scenes if scene in longest]
     rows = rows[rows["scene"].isin(scenes)]
     rows = rows.assign(scale=rows.groupby("unit")["size"].transform("max"))
-    blades, largest, owner = (
-        campbell["blade"].values.astype(str).tolist(),
-        rows.groupby("blade")["size"].max(),
-        dict[str, str](),
-    )
-    looks = style.blade_styles(blades)
+    blades, largest = campbell["blade"].values.astype(str).tolist(), rows.groupby("blade")["size"].max()
+    looks, owner = style.blade_styles(blades), dict[str, str]()
     # each colour is that of the blade with the largest circle that has it
     for blade in sorted(blades, key=lambda blade: -largest.get(blade, -1.0)):
         owner.setdefault(looks[blade]["color"], blade)
@@ -180,7 +176,7 @@ def _draw_modes(axes: Axes, campbell: xr.Dataset, names: Iterable[str]) -> None:
 
 
 def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None:
-    """Marks, the largest first, on lines along the speeds above yield; crosses for what diverged, and a key of the sizes."""
+    """Marks, the largest first, on lines along the speeds above yield; crosses for what diverged."""
     if rows.empty:
         style.say(axes, "no interaction was found")
         return
@@ -201,22 +197,6 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
         axes.scatter(x, y, part["area"], facecolors=faces, edgecolors=edges, **look)
     if diverged.any():
         axes.plot(*_places(rows[diverged]), "x", color="red", zorder=2.6, label="diverged", clip_on=False)
-    circles = rows[rows["size"] > 0.0]
-    if sizes := _sizes_of_key(circles):
-        unit, scale = circles["unit"].iloc[0], circles["scale"].iloc[0]
-        widths = [_LARGEST * np.sqrt(each / scale) for each in sizes]
-        handles = [
-            Line2D([], [], marker="o", markersize=wide, linestyle="", color="0.8", markeredgecolor="0.3") for wide in widths
-        ]
-        # on no mark: above the strip, or else at the top
-        places = np.vstack([(0.0, 0.0), np.column_stack(_places(rows))])
-        (_, zero), *shares = axes.transAxes.inverted().transform(axes.transData.transform(places))
-        crowded = any(x > 0.5 and 0.0 < y - zero < 0.25 for x, y in shares)
-        place: dict[str, Any] = {"loc": "upper left"} if crowded else {"loc": "lower right", "bbox_to_anchor": (1.0, zero)}
-        labels = [f"{each:g} {unit}" for each in sizes]
-        axes.legend(
-            handles, labels, ncols=2, frameon=True, framealpha=0.9, edgecolor="none", columnspacing=1.0, borderpad=0.6, **place
-        )
 
 
 def _unknown_share(runs: xr.Dataset) -> str:
@@ -225,30 +205,17 @@ def _unknown_share(runs: xr.Dataset) -> str:
     return f" ({left} of {np.count_nonzero(runs['status'] != RunStatus.NOT_RUN)} runs leave the model)" if left else ""
 
 
-def _sizes_of_key(circles: pd.DataFrame) -> list[float]:
-    """Rounded sizes of the largest circle and of a smaller one, if circles of these sizes are drawn to scale."""
-    rounded = [_round(share * largest) for largest in circles["size"].nlargest(1) for share in (1.0, 0.15)]
-    return [size for size in rounded if _LARGEST**2 * size > _SMALLEST * circles["scale"].max()]
-
-
 def _places(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
     return rows["peak_speed_rad_s"], rows["frequency"]
 
 
-def _round(value: float) -> float:
-    """Largest of 1, 2 and 5 times a power of ten that is not above a value."""
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(power * max(digit for digit in (1, 2, 5) if digit * power <= value * (1.0 + 1e-9)))
-
-
 def _label(axes: Axes, rows: pd.DataFrame, point: float, *, named: bool) -> None:
     """Label the largest circles, as far as there is room: neither on each other nor on other circles. `point`: in pixels."""
-    radii, legend = 0.5 * np.sqrt(rows["area"].values), axes.get_legend()
+    radii = 0.5 * np.sqrt(rows["area"].values)
     middles = axes.transData.transform(np.column_stack(_places(rows)))
     reach = point * radii[:, None]
     circles = [Bbox(corners) for corners in np.stack([middles - reach, middles + reach], axis=1)]
-    taken = [legend.get_window_extent()] if legend else []
-    most = len(taken) + _MOST_LABELS
+    taken: list[Bbox] = []
     for number, row in enumerate(rows.to_dict("records")):
         avoided = [*taken, *circles[:number], *circles[number + 1 :]]
         for (across, up), distance in _AWAY:
@@ -263,7 +230,7 @@ def _label(axes: Axes, rows: pd.DataFrame, point: float, *, named: bool) -> None
                 taken.append(box)
                 break
             text.remove()
-        if len(taken) == most:
+        if len(taken) == _MOST_LABELS:
             return
 
 
