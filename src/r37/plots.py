@@ -47,7 +47,7 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
 
 @stages()
 def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, title: str | None = None) -> Figure:
-    """Figure of the leading edge's rms and the stress over speed, from the median to the largest of the later revolutions.
+    """Figure of rms and stress over speed, and of which speeds are dangerous, unknown or sustained.
 
     Args:
         response: The result of `r37.sweep`, or a part of the dataset rms of a run.
@@ -79,7 +79,7 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
 
 @stages()
 def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
-    """Figure of a rotor: a map of its blades over speed, the worst stress, and growth and nodal diameters at the worst speed.
+    """Figure of a rotor: dangerous speeds, its blades over speed, the worst stress, growth and nodal diameters there.
 
     Args:
         rotor: `rotor(blade, scene)` of the results of a run.
@@ -138,7 +138,7 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
 
 @stages()
 def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | None = None) -> Figure:
-    """Figure of the band of the members, their probability of passing yield, and the effect of each number.
+    """Figure of the band of the members, which of them are dangerous or unknown, and the effect of each number.
 
     Args:
         results: The results of a run with tolerances.
@@ -163,7 +163,7 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
     if blade not in tolerances["blade"].values or scene not in tolerances["scene"].values:
         known = f"{', '.join(map(str, tolerances['blade'].values))} in {', '.join(map(str, tolerances['scene'].values))}"
         raise ConfigError(f"tolerances: found none of {blade} in {scene}; allowed: {known}")
-    spread, response = tolerances.sel(blade=blade, scene=scene), results.response(blade, scene)
+    spread, response = tolerances.sel(blade=blade, scene=scene), judged(results.response(blade, scene))
     return _drawn("r37studies.tolerances.figures.draw_tolerances", spread, response, title or f"{blade}, {scene}")
 
 

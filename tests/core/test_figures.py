@@ -329,6 +329,8 @@ def ranking(*rows):
     table = pd.DataFrame(rows, columns=["blade", "scene", "rank_lowest", "rank_highest", _DANGEROUS])
     table = table.astype({"rank_lowest": "Int64", "rank_highest": "Int64"})
     lengths = {"length_unknown_rad_s": 5.0, "length_most_revolutions_rad_s": table[_DANGEROUS] + 9.0}
+    lengths |= dict.fromkeys(("runs_left_by_height", "runs_left_by_energy"), 0.0)
+    lengths |= dict.fromkeys(("runs_left_by_force", "runs_left_by_heat"), 2.0)
     return table.assign(**lengths, contact="11 patches", length_dangerous_within_rad_s=12.0)
 
 
@@ -356,7 +358,7 @@ def test_the_places_that_a_blade_may_have_stand_before_its_name():
     assert [axes.get_title() for axes in figure.axes] == ["x", "y: cannot be ranked"]
     assert figure.get_suptitle() == "contact: 11 patches; kinematics: linear"
     assert sorted(patch.get_width() for patch in first.patches) == [5.0, 5.0, 5.0, 5.0, 20.0, 22.0]
-    assert "0 / 5 / 9" in texts(second.texts)
+    assert "0 / 5 / 9 by force, heat" in texts(second.texts)
     # known to within more than the length: the error bar ends at 0
     ends = second.collections[1].get_segments()
     assert [(begin[0], end[0]) for begin, end in ends] == [(0.0, 12.0), (0.0, 13.5), (0.0, 14.0)]

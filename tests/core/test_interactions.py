@@ -56,6 +56,7 @@ def response(normal=(), tangential=(), step=5.0, unit=1.0):
     return xr.Dataset(
         {
             "status": ("speed", np.zeros(len(speeds), dtype="i1")),
+            "exit_cause": ("speed", np.zeros(len(speeds), dtype="i1")),
             "rms_normal": (tips, np.stack([curves[0], 0.0 * speeds], axis=1)),
             "rms_tangential": (tips, np.stack([curves[1], 0.0 * speeds], axis=1)),
             "amplitude": (("speed", "engine_order"), spectra[0]),

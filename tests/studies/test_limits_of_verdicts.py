@@ -23,4 +23,4 @@ def test_a_verdict_beyond_a_limit_meets_nothing(name, share, within, beyond):
         evidence = Evidence(xr.Dataset(runs, {"speed": [1000.0, 1001.0, 1002.0]}), operating=OperatingRange(1000.0, last))
         (row,) = judge(Requirements(above_yield=0.0), evidence)
         assert row["verdict"] == verdict
-        assert (BEYOND[name][1] in row["note"]) == (bool(changes) and last == 1002.0)
+        assert (f"beyond the model by {BEYOND[name][2]}" in row["note"]) == (bool(changes) and last == 1002.0)

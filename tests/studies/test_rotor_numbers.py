@@ -11,6 +11,8 @@ from test_rotor import CHOICE, KEPT, LINED_RING, RING, SPEED, STEEP, a_blade, ro
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import Named
+from r37core.results.events import Danger
+from r37core.results.limits import Cause
 from r37core.results.table_file import read_table
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.kept_numbers import KEPT as KEPT_DIRECTIONS
@@ -171,7 +173,8 @@ def test_spans_of_a_long_run_end_with_it(tmp_path):
     third = float(stress[len(stress) // 3])
     judged = rotor_dataset([tmp_path / "speed.npz"], [SPEED], third)
     assert judged["blade_share_of_revolutions_above_yield"].item() == np.mean(stress > third)
-    assert judged["blade_max_von_mises_ever"].item() == pytest.approx(stress[-1])
+    assert judged["blade_max_von_mises_ever"].item() == judged["max_von_mises_ever"].item() == pytest.approx(stress[-1])
+    assert judged["yield_danger"] == Danger.UNKNOWN and judged["exit_cause"] > Cause.NONE
     # where one blade diverged, nothing is known of those that went on to the end
     write_speed(numbers | {"status": np.array(1)}, tmp_path / "lost.npz", {})
     lost = rotor_dataset([tmp_path / "lost.npz"], [SPEED], third)
@@ -214,12 +217,18 @@ def a_rotor(rms, stress=None, status=None, leader=None, share=None):
         "status": ("speed", np.zeros(len(rms), int) if status is None else status),
         "nodal_diameter_share": (("speed", "nodal_diameter"), np.where(np.isnan(rms[:, :1]), np.nan, [[0.1, 0.2, 0.7]])),
         "yield_stress": 1e9,
+        "lined": 1.0,
+        # the last speed leaves the model
+        "exit_revolution": ("speed", np.where(np.arange(len(rms)) < 1, np.nan, 5.0)),
+        "exit_cause": ("speed", np.where(np.arange(len(rms)) < 1, Cause.NONE, Cause.HEAT)),
         **{name: ("blade_number", one) for name in ("blade_angle", "blade_frequency_factor", "blade_longer")},
     }
     if stress is not None:
         of_blades = 1e9 * np.array(stress)
         above = np.where(np.isnan(of_blades), np.nan, of_blades > 1e9) * np.reshape(1.0 if share is None else share, (-1, 1))
         data |= {"blade_max_von_mises_ever": (by_blade, of_blades), "blade_share_of_revolutions_above_yield": (by_blade, above)}
+        data |= {f"max_von_mises_{name}": ("speed", of_blades.max(axis=1)) for name in ("ever", "inside")}
+        data |= {"share_of_revolutions_above_yield": ("speed", above.max(axis=1))}
     axes = {"speed": speeds, "speed_rpm": ("speed", 9.55 * speeds), "blade_number": numbers, "span": 2 * spans}
     return xr.Dataset(data, axes | {"nodal_diameter": [-1, 0, 1]})
 
@@ -267,11 +276,12 @@ def test_speeds_that_diverged_in_the_table(tmp_path):
 def test_the_figure_shows_all_blades_and_names_those_that_move_most():
     rms = 1e-3 * np.array([[3.0, 1.0, 4.0, 2.0, 5.0], [1.0, 1.0, 1.0, 1.0, 2.0]])
     figure = draw_rotor(a_rotor(rms, [[0.5, 2.0, 3.0, 0.1, 0.2], [0.1, 0.2, 0.3, 0.4, 0.5]]), "Ref")
-    blades, stress, growth, waves = figure.axes[:4]
+    row, blades, stress, growth, waves = figure.axes[:5]
+    assert [text.get_text() for text in row.texts] == ["by heat"]
     (cells,) = blades.images
     np.testing.assert_allclose(cells.get_array(), 1e3 * rms.T)
     assert (cells.norm.vmin, cells.norm.vmax) == (pytest.approx(5e-3), 5.0)
-    worst, median = stress.lines[:2]
+    worst, _, median = stress.lines[:3]
     np.testing.assert_allclose(worst.get_ydata(), [3.0, 0.5])
     np.testing.assert_allclose(median.get_ydata(), [0.5, 0.3])
     assert stress.get_title() == "at most 2 of 5 blades above yield in most revolutions"
@@ -287,13 +297,13 @@ def test_the_figure_shows_all_blades_and_names_those_that_move_most():
 def test_the_figure_of_one_speed_or_without_stress_has_lines():
     rms = 1e-3 * np.array([[3.0, 1.0], [4.0, 2.0]])
     figure = draw_rotor(a_rotor(rms), "Ref")
-    np.testing.assert_allclose(figure.axes[1].lines[0].get_ydata(), [3.0, 4.0])
-    assert len(figure.axes[0].images) == 1 and "at 910 rad/s" in figure.axes[2].get_xlabel()
+    np.testing.assert_allclose(figure.axes[2].lines[0].get_ydata(), [3.0, 4.0])
+    assert len(figure.axes[1].images) == 1 and "at 910 rad/s" in figure.axes[3].get_xlabel()
     for rotor in (a_rotor(rms[:1]), a_rotor(rms[:, :1])):
         figure = draw_rotor(rotor, "Ref")
-        lines = figure.axes[0].lines
+        lines = figure.axes[1].lines
         np.testing.assert_allclose([line.get_ydata() for line in lines], 1e3 * rotor["blade_rms"].values.T)
-        assert not figure.axes[0].images and figure.axes[0].get_ylabel() == "rms of the motion (mm)"
+        assert not figure.axes[1].images and figure.axes[1].get_ylabel() == "rms of the motion (mm)"
     lost = a_rotor([[np.nan, np.nan]], None, [1], [3])
     figure = draw_rotor(lost, "Ref")
-    assert figure.axes[0].lines[-1].get_ydata().tolist() == [0.0]
+    assert figure.axes[1].lines[-1].get_ydata().tolist() == [0.0]

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from r37core.results.columns import LENGTHS, names
+from r37core.results.columns import LEFT_BY, LENGTHS, names
 from r37core.results.datasets import with_further_runs
 from r37core.results.measures import leading_edge, ran
 from r37core.rom.reduction_choice import LINEAR
@@ -153,7 +153,8 @@ def _draw_bars(axes: Axes, rows: pd.DataFrame, *, named: bool) -> None:
     for position, end, (_, row) in zip(positions, ends, rows.iterrows(), strict=True):
         if np.isfinite(end):
             numbers = " / ".join(f"{row[name]:.0f}" for name in (_DANGEROUS, _UNKNOWN, _SUSTAINED))
-            axes.text(end + 0.02 * largest, position, numbers, va="center", fontsize=7)
+            causes = ", ".join(cause.text for cause, column in LEFT_BY.items() if row[column.name] > 0.0)
+            axes.text(end + 0.02 * largest, position, f"{numbers}{causes and ' by '}{causes}", va="center", fontsize=7)
     labels = []
     for blade, row in rows.iterrows():
         # of a row that stands for several, or a blade without stress, they are not known

@@ -22,10 +22,14 @@ from r37core.results.limits import Cause
 
 from . import style
 
-_LINE: dict[str, Any] = {"color": "white", "linewidth": 1.2, "path_effects": [withStroke(linewidth=3.0, foreground="black")]}
+LINE_LOOK: dict[str, Any] = {
+    "color": "white",
+    "linewidth": 1.2,
+    "path_effects": [withStroke(linewidth=3.0, foreground="black")],
+}
 """Look of a line that is seen on every colour."""
 
-LINE = Line2D([], [], **_LINE)
+LINE = Line2D([], [], **LINE_LOOK)
 """Handle of sustained speeds in a legend."""
 
 LEGEND = {
@@ -63,7 +67,7 @@ def draw_danger_rows(
         for part, look in zip(spans[:3], looks, strict=True):
             axes.broken_barh(part, height, **{"linewidth": 0.0} | look)
         for begin, width in spans[3]:
-            axes.plot([begin, begin + width], [number, number], solid_capstyle="butt", **_LINE)
+            axes.plot([begin, begin + width], [number, number], solid_capstyle="butt", **LINE_LOOK)
         if causes := causes_text(response):
             axes.text(1.01, number, f"by {causes}", fontsize=6, va="center", transform=axes.get_yaxis_transform())
     axes.set_yticks(range(len(runs)), list(runs))

@@ -163,9 +163,10 @@ FIGURES = (
         files={"ranking": "<results>/ranking.csv"},
         label="ranking",
         caption="Which blade? Length of the dangerous speeds of every blade (dark), and of the unknown ones, at which the "
-        "model is left before yield is passed (hatched), scene by scene, by rank. Before each name: places that the blade "
-        "may have, as blades whose brackets overlap cannot be told apart. Upright line: length above yield in most later "
-        "revolutions. Lines: what the dark length is known to within; with members: the range that has nine tenths of them.",
+        "model is left before yield is passed (hatched), scene by scene, by rank, with the limits that are left. Before each "
+        "name: places that the blade may have, as blades whose brackets overlap cannot be told apart. Upright line: length "
+        "above yield in most later revolutions. Lines: what the dark length is known to within; with members: "
+        "the range that has nine tenths of them.",
         arguments=lambda sweep: {"scenes": sweep.drawn["scene"]},
     ),
 )

@@ -23,7 +23,7 @@ def remarks_on_limits(runs: Mapping[Any, Any], prefix: str = "") -> list[str]:
     """A line on runs beyond the model's limits, with the reasons; `runs`: as of reasons_beyond_limits."""
     beyond = counted(int(beyond_limits(runs).sum()), "run")
     reasons = reasons_beyond_limits(runs)
-    return [f"{prefix}beyond the model's limits in {beyond}: {'; '.join(reasons)}"] if reasons else []
+    return [f"{prefix}beyond the model's limits in {beyond}: {'; '.join(reasons.values())}"] if reasons else []
 
 
 def counted(number: int, name: str) -> str:

@@ -25,12 +25,15 @@ class Cause(Outcome):
 class _Limit(NamedTuple):
     """A limit: its number, with displacements of second order, or the variable that has it; the reason in words.
 
+    `brief`: the reason where it stands with others, with the number times a `factor`.
     `until`: array of a run's file with what the variable is in, or until the end of, each revolution; empty without one.
     """
 
     cause: Cause
     limit: str | float
     text: str
+    brief: str
+    factor: float
     until: str = ""
 
 
@@ -41,6 +44,8 @@ _LIMITS = {
         "the tip moves by up to {:.2g} of the blade's height; second order follows full finite elements to {:.2g} "
         + _PAGE
         + _FED,
+        "height {:.3g}%",
+        100.0,
         "revolution_share_of_height",
     ),
     # Static force on a patch of 4 mm of tip: 3% off full finite elements of large displacement at 2 kN, 10% at 3.6 kN. Of such
@@ -49,15 +54,23 @@ _LIMITS = {
         Cause.FORCE,
         2000.0,
         "contact forces reach {:.3g} N a node; from {:g} N on the tip's ends are 10% off full finite elements " + _PAGE,
+        "force {:.3g} kN",
+        1e-3,
         "force_so_far",
     ),
     "energy_residual_share": _Limit(
-        Cause.ENERGY, 0.02, "up to {:.2g} of the energy is unaccounted for, above {:g}: take a smaller time step"
+        Cause.ENERGY,
+        0.02,
+        "up to {:.2g} of the energy is unaccounted for, above {:g}: take a smaller time step",
+        "energy {:.3g}%",
+        100.0,
     ),
     "bounded_share_of_time": _Limit(
         Cause.ENERGY,
         0.0,
         "only the bound on the elastic energy ends the growth of the motion, in up to {:.2g} of the steps" + _FED,
+        "bound on the energy in {:.3g}% of the steps",
+        100.0,
         "bounded_so_far",
     ),
     "friction_power": _Limit(
@@ -65,12 +78,16 @@ _LIMITS = {
         "melting_power",
         "friction takes up to {:.3g} W over 20 revolutions; from {:.3g} W on the share of it that enters the tip "
         "(friction.heat_share) melts it in 1 s",
+        "heat {:.3g} kW",
+        1e-3,
     ),
     "friction_heat": _Limit(
         Cause.HEAT,
         "melting_power",
         "friction makes up to {:.3g} J of heat; from {:.3g} J on the share of it that enters the tip "
         "(friction.heat_share) melts it, if none flows off",
+        "heat {:.3g} kJ",
+        1e-3,
         "heat_so_far",
     ),
 }
@@ -95,14 +112,18 @@ def beyond_limits(runs: Mapping[Any, Any]) -> np.ndarray:
     return np.any(np.broadcast_arrays(*(_excess(runs, name)[2] for name in _LIMITS)), axis=0)
 
 
-def reasons_beyond_limits(runs: Mapping[Any, Any]) -> list[str]:
-    """Reasons why runs are beyond limits, each with the numbers of the run that goes furthest; `runs`: see beyond_limits."""
-    reasons = []
+def reasons_beyond_limits(runs: Mapping[Any, Any]) -> dict[str, str]:
+    """Reasons why runs are beyond limits, in brief and in words, each with the number of the run that goes furthest.
+
+    `runs`: see beyond_limits.
+    """
+    reasons = {}
     for name, known in _LIMITS.items():
         values, limits, beyond = _excess(runs, name)
         if beyond.any():
             furthest = np.where(beyond, values, -np.inf).argmax()
-            reasons.append(known.text.format(values.flat[furthest], limits.flat[furthest]))
+            worst = values.flat[furthest]
+            reasons[known.brief.format(known.factor * worst)] = known.text.format(worst, limits.flat[furthest])
     return reasons
 
 

@@ -194,14 +194,15 @@ def soonest_divergence(evidence: Evidence) -> xr.Dataset:
 
 
 def beyond_model(evidence: Evidence) -> list[str]:
-    """Reasons why runs in operation, and further ones, are beyond the model's limits."""
+    """Limits that runs in operation, and further ones, are beyond, each with the largest number; nothing where none is."""
     further = (runs for look, runs in evidence.looks.items() if look != HALF_FRICTION)
     parts = [evidence.response.isel(speed=np.flatnonzero(evidence.operates)), *further]
     runs = {
         name: np.concatenate([np.broadcast_to(part.get(name, np.nan), part.sizes["speed"]) for part in parts])
         for name in OF_LIMITS
     }
-    return reasons_beyond_limits(runs)
+    reasons = reasons_beyond_limits(runs)
+    return [f"beyond the model by {', '.join(reasons)}"] if reasons else []
 
 
 def operated_alone(evidence: Evidence) -> Evidence:

@@ -1,6 +1,7 @@
 """rotor.nc: numbers of every blade of a rotor at every speed, of one blade shape and scene, and of all."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +11,13 @@ import xarray as xr
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted
 from r37core.results.columns import MOST_REVOLUTIONS
+from r37core.results.events import OF_EXIT, OF_YIELD
 from r37core.results.joining import Along
-from r37core.results.response import in_statistic
+from r37core.results.response import in_statistic, run_row
 from r37core.results.table_file import read_table
 from r37core.results.variables import OF_STRESS
-from r37core.stress.statistic import stress_statistic
+from r37core.results.variables import VARIABLES as RESPONSE
+from r37core.stress.statistic import UNKNOWN, stress_statistic
 from r37core.time_integration.rotor_numbers import span_maxima
 from r37core.time_integration.speed_arrays import ARRAYS
 from r37core.time_integration.speed_file import read_speed
@@ -24,12 +27,19 @@ from r37studies.closing import largest_stress_text
 _BLADES = ("blade_number",)
 
 OF_ALL_SPEEDS = {
-    **{name: ARRAYS[name] for name in ("blade_angle", "blade_frequency_factor", "blade_longer")},
+    **{name: ARRAYS[name] for name in ("blade_angle", "blade_frequency_factor", "blade_longer", "lined")},
     "yield_stress": OF_STRESS["yield_stress"],
 }
 """Variables that no speed changes."""
 
+_WORST = {
+    name: replace(RESPONSE[name], dims=())
+    for name in (*OF_EXIT, *OF_YIELD, "max_von_mises_ever", "share_of_revolutions_above_yield")
+}
+"""Variables of the worst of all blades, in the region that decides, which say how dangerous a speed is."""
+
 VARIABLES = {
+    **_WORST,
     **{name: ARRAYS[name] for name in ("blade_rms", "blade_peak", "blade_maximum", "blade_contact", "blade_worn")},
     "blade_max_von_mises_ever": Variable(
         _BLADES, "Pa", "largest von Mises stress of any revolution in the region that decides", "f4"
@@ -72,6 +82,8 @@ def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarra
     """Numbers of one speed, and the coordinates that they need."""
     revolutions = len(run["revolution_maximum"])
     row = run | {"yield_stress": np.array(yield_stress), "span": _ends(revolutions, int(run["span_revolutions"]))}
+    worst = run_row(run, yield_stress, UNKNOWN)
+    row |= {name: np.ravel(worst[name])[0] for name in _WORST if name in worst}
     if "wear_harmonic" in run:
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_revolution_von_mises" in run:

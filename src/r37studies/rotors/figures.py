@@ -3,6 +3,7 @@
 Motion is the leading edge's displacement, normal and tangential together.
 """
 
+import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -10,6 +11,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from r37core.figures import style
+from r37core.figures.danger_rows import LEGEND, draw_danger_rows
 from r37core.figures.maps import draw_cells
 from r37core.time_integration.status import RunStatus
 
@@ -21,8 +23,13 @@ _NAMED = 3
 
 
 def draw_rotor(rotor: xr.Dataset, title: str) -> Figure:
-    """Four panels of one blade shape in one scene: see the captions."""
-    figure, panels = style.panels(2, 2, 4.6)
+    """Four panels of one blade shape in one scene, and above all a row of its dangerous speeds: see the captions."""
+    figure = plt.figure(figsize=(style.PAGE, 5.8))
+    above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=[1.2, 4.6])[:, 0]
+    row, panels = above.subplots(), below.subplots(2, 2)
+    draw_danger_rows(row, {"rotor": rotor}, ["C0"])
+    row.set_xlabel(style.SPEED_LABEL)
+    style.legend_below(above, (), 3, LEGEND)
     figure.suptitle(f"{title}: a rotor of {rotor.sizes['blade_number']} blades")
     _draw_map(panels[0, 0], rotor)
     _draw_worst(panels[0, 1], rotor)
@@ -64,18 +71,18 @@ def _draw_map(axes: Axes, rotor: xr.Dataset) -> None:
 
 
 def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
-    """Largest stress of any blade and of the median blade, and how many blades are above yield at once."""
+    """Band of the stress of the worst blade, stress of the median one, and how many blades are above yield at once."""
     speeds, number = rotor["speed"].values, rotor.sizes["blade_number"]
     axes.set_xlabel(style.SPEED_LABEL)
     if "blade_max_von_mises_ever" not in rotor:
         axes.plot(speeds, 1e3 * rotor["blade_rms"].max("blade_number"), ".-", markersize=3)
         axes.set_ylabel(f"largest {_MOTION}")
         return
-    stress = 1e-9 * rotor["blade_max_von_mises_ever"]
-    axes.plot(speeds, stress.max("blade_number"), ".-", markersize=3, label="worst blade")
-    axes.plot(speeds, stress.median("blade_number"), "-", color="0.5", label="median blade")
+    style.stress_band(axes, speeds, rotor, "worst blade")
+    median = 1e-9 * rotor["blade_max_von_mises_ever"].median("blade_number")
+    axes.plot(speeds, median, "-", color="0.5", label="median blade, all revolutions")
     style.yield_lines(axes, {"": rotor["yield_stress"].item()}, named=True, linear=style.is_linear(rotor))
-    axes.set_ylabel("largest von Mises (GPa)")
+    axes.set_ylabel(style.stress_label(rotor))
     lost = int(np.sum(rotor["status"].values == RunStatus.DIVERGED))
     diverged = f"\n{lost} of {len(speeds)} speeds diverged" if lost else ""
     above = f"at most {blades_above_yield(rotor)} of {number} blades above yield in most revolutions"

@@ -41,9 +41,11 @@ EXTENSION = Extension(
             draw="r37studies.rotors.figures.draw_rotor",
             files={"rotor": ROTOR_OF_RUN},
             label="rotor",
-            caption="Blade {blade} in scene {scene}, a whole rotor on one lining. Above: motion of every blade's leading "
-            "edge, normal and tangential together, over speed, and the largest stress of any blade; red crosses: the blade "
-            "that diverged first. Below: growth of all blades at the speed of the largest motion, and nodal diameters there.",
+            caption="Blade {blade} in scene {scene}, a whole rotor on one lining. Row: speeds at which any of its blades is "
+            "dangerous, unknown or sustained above yield. Middle: motion of every blade's leading edge, normal and tangential "
+            "together, over speed, and the largest stress of any blade inside the model and of all revolutions (thin); red "
+            "crosses: the blade that diverged first. Below: growth of all blades at the speed of the largest motion, and nodal "
+            "diameters there.",
         ),
     ),
     closing="r37studies.rotors.dataset.closing",

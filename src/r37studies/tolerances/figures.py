@@ -10,7 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from r37core.figures import style
-from r37core.results.measures import leading_edge
+from r37core.figures.danger_rows import LEGEND, LINE_LOOK, ROW_HEIGHT, draw_danger_rows
+from r37core.results.columns import MOST_REVOLUTIONS
+from r37core.results.danger import ratio_inside
+from r37core.results.measures import leading_edge, ran
+from r37core.time_integration.status import RunStatus
 
 from .number_ranks import CONFIDENCE
 
@@ -19,33 +23,30 @@ _MEASURES = {"peak_speed": "peak speed", "length_dangerous": "length of dangerou
 
 
 def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> Figure:
-    """Band and median of rms and stress over speed with the nominal run, chance of passing yield, where the spread is from."""
+    """Band and median of rms and stress over speed with the nominal run, shares of the members, where the spread is from."""
     curves = [
         name for name in style.CURVES if f"{name}_quantile" in tolerances and tolerances[f"{name}_quantile"].notnull().any()
     ]
     chance = [_CHANCE] if _CHANCE in tolerances and tolerances[_CHANCE].notnull().any() else []
     is_ranked = bool(tolerances["rank_coefficient"].notnull().any())
     rows = len(curves) + len(chance)
-    heights = [1.75 * rows + 0.6, *[1.7] * is_ranked]
+    heights = [1.75 * rows + ROW_HEIGHT + 0.9, *[1.7] * is_ranked]
     figure = plt.figure(figsize=(style.PAGE, sum(heights)))
     above, *below = figure.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
-    panels = above.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
+    ratios = [*[1.75] * rows, ROW_HEIGHT]
+    *panels, row = above.subplots(rows + 1, 1, sharex=True, squeeze=False, height_ratios=ratios)[:, 0]
     for axes, name in zip(panels, curves, strict=False):
         _band(axes, tolerances, leading_edge(nominal), name)
     if chance:
-        axes, sure = panels[-1], f"{CONFIDENCE:.0%} interval of the chance"
-        share, low, high = (100.0 * tolerances[f"{_CHANCE}{end}"].dropna("speed") for end in ("", "_low", "_high"))
-        axes.fill_between(share["speed"], low, high, color=style.COLOURS[1], alpha=0.25, linewidth=0, label=sure)
-        axes.plot(share["speed"], share, color=style.COLOURS[1], label="share of the members")
-        axes.axhline(50.0, color="0.5", linewidth=0.6, linestyle=":")
-        axes.set(ylim=(0.0, 102.0), ylabel="above yield (%)")
-    panels[-1].set_xlabel(style.SPEED_LABEL)
+        _shares(panels[-1], tolerances.dropna("speed", subset=[_CHANCE]))
+    draw_danger_rows(row, {"nominal": ran(nominal)}, [style.COLOURS[1]])
+    row.set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
     if "max_von_mises_ever" in curves:
         style.yield_lines(
             panels[curves.index("max_von_mises_ever")], {"": float(tolerances["yield_stress"].median())}, named=True
         )
-    style.legend_below(above, panels, 4)
+    style.legend_below(above, panels, 3, LEGEND)
     above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
     for part in below:
         _numbers(part.subplots(1, 1), tolerances)
@@ -67,6 +68,20 @@ def _band(axes: Axes, tolerances: xr.Dataset, nominal: xr.Dataset, name: str) ->
         axes.plot(curve["speed"], scale * curve, color=style.COLOURS[1], linewidth=0.8, linestyle="--", label="nominal")
     axes.set_ylabel(label)
     axes.set_ylim(0.0, None)
+
+
+def _shares(axes: Axes, members: xr.Dataset) -> None:
+    """Shares of the members that are dangerous, unknown and sustained over speed, each as a row of danger_rows has it."""
+    speed = members["speed"]
+    dangerous, low, high = (100.0 * members[f"{_CHANCE}{end}"] for end in ("", "_low", "_high"))
+    unknown = 100.0 * (members["exit_revolution"].notnull() & ~(ratio_inside(members) > 1.0)).mean("member")
+    above = members["share_of_revolutions_above_yield"].where(members["status"] != RunStatus.DIVERGED, 1.0)
+    axes.fill_between(speed, 0.0, dangerous, color="0.25", linewidth=0)
+    axes.fill_between(speed, dangerous, dangerous + unknown, **style.UNKNOWN)
+    axes.plot(speed, 100.0 * (above > MOST_REVOLUTIONS).mean("member"), **LINE_LOOK)
+    for end in (low, high):
+        axes.plot(speed, end, ":", color=style.COLOURS[1], label=f"{CONFIDENCE:.0%} interval of the dangerous")
+    axes.set(ylim=(0.0, 102.0), ylabel="members (%)")
 
 
 def _numbers(axes: Axes, tolerances: xr.Dataset) -> None:

@@ -59,9 +59,10 @@ EXTENSION = Extension(
             files={"tolerances": DATASET, "nominal": paths.RESPONSE},
             label="tolerances",
             caption="Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, "
-            "and the nominal run (dashed). Then the share of the members above yield, with the interval of the chance. Last, "
-            "by how much each number moves three measures, with intervals: rank coefficients. Above the "
-            "bars stands the place in the ranking; pale ones have none.",
+            "and the nominal run (dashed). Then the shares of the members that are dangerous (dark, with the interval of the "
+            "chance), unknown (hatched) and sustained (line), and a row of the nominal run. Last, by how much each number "
+            "moves three measures, with intervals: rank coefficients. Above the bars stands the place in the ranking; pale "
+            "ones have none.",
         ),
     ),
     closing="r37studies.tolerances.table.closing",
