@@ -13,10 +13,11 @@ def response(file, **changes):
     """A response above yield from 810 to 820 rad/s, written to a file."""
     speeds = np.arange(800.0, 840.0, 10.0)
     stress = np.array([0.5, 2.0, 2.0, 0.5])
-    content = {f"max_von_mises_{name}": ("speed", stress) for name in ("ever", "median", "high")}
+    content = {f"max_von_mises_{name}": ("speed", stress) for name in ("ever", "inside", "median", "high")}
     content |= {
         "share_of_revolutions_above_yield": ("speed", (stress > 1.0).astype(float)),
         "status": ("speed", np.zeros(4, "i1")),
+        "exit_revolution": ("speed", np.full(4, np.nan)),
         "motion_at_end": ("speed", np.full(4, MotionAtEnd.LASTING, "i1")),
         "yield_stress": 1.0,
         "lined": 1.0,
@@ -41,8 +42,8 @@ def test_rotors_are_judged_as_a_single_blade_is(tmp_path):
     output = Named(table=tmp_path / "table.csv", picture=tmp_path / "rotor.png")
     rotor.kinds(files, output, Named())
     _, single, _, equal, *_ = read_table(tmp_path / "table.csv")
-    assert single == ["Ref", "a single blade", "20", "805 to 825", "-0.6, +1.9", "29", "-1.2, +2.4", "2.00", "1"]
-    assert equal == ["Ref", "36 equal blades", "18", "806 to 824", "-0.5, +1.7", "29", "-1.2, +2.4", "2.00", "12"]
+    assert single == ["Ref", "a single blade", "20", "805 to 825", "-0.6, +1.9", "23", "-0.8, +2.1", "2.00", "1"]
+    assert equal == ["Ref", "36 equal blades", "18", "806 to 824", "-0.5, +1.7", "23", "-0.8, +2.1", "2.00", "12"]
     assert output.picture.stat().st_size > 10_000
 
 
