@@ -57,7 +57,8 @@ def results(root, tmp_path_factory):
     shutil.copy(root / "examples/fan/fan.msh", folder)
     run = {"blades": list(blades), "scenes": list(scenes), "fidelity": "draft", "speeds": [490, 1620, 1640, 1660]}
     run |= {"operating": {"idle_rad_s": 1620, "redline_rad_s": 1660}}
-    run |= {"requirements": {"above_yield_at_most_rad_s": 0, "goodman_share_at_most": 1}}
+    # each blade fails by one of them, which needs few further runs
+    run |= {"requirements": {"above_yield_at_most_rad_s": 0, "goodman_share_at_most": 0.2}}
     overlay(folder, "config.yaml", yaml.safe_dump(run))
     snakemake(folder, "tables", "--cores", "2")
     return folder / "results"
