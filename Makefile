@@ -25,10 +25,10 @@ RESULTS ?= results
 report: $(VENV)/.ready ## a finished run in one file, for a colleague: report.zip; RESULTS=results/runs/NAME of a run with a name
 	@$(BIN)/python -m r37core.console.report '$(RESULTS)'
 
-# the files of tests spread over the cores, the longest first; RECORD=yes writes their durations, which the order follows
+# the files of tests spread over the cores, the longest first; TESTS names others than tests/; RECORD=yes writes their durations, which the order follows
 SPREAD := --numprocesses $(CORES) --dist loadfile --no-loadscope-reorder --max-worker-restart 0
 test: $(VENV)/.ready ## all tests
-	$(BIN)/python -m pytest $(SPREAD) $(if $(RECORD),--record-durations)
+	$(BIN)/python -m pytest $(TESTS) $(SPREAD) $(if $(RECORD),--record-durations)
 
 test-fast: $(VENV)/.ready ## the tests that neither run Snakemake nor build larger models
 	$(BIN)/python -m pytest -q -m 'not slow' $(SPREAD)
@@ -54,8 +54,8 @@ validation: $(VENV)/.docs ## tables and pictures of the pages that are out of da
 	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) engine
 	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES) --resources mem_mb=4600 $(if $(EVERY),--config every=$(EVERY))
 
-test-validation: $(VENV)/.ready ## the tests of what makes the tables and pictures of the pages
-	$(BIN)/python -m pytest validation/tests $(SPREAD)
+test-validation: ## the tests of what makes the tables and pictures of the pages
+	$(MAKE) test TESTS=validation/tests
 
 # a warning is an error
 site: $(VENV)/.docs ## the documentation as a site that opens from the disk: site/index.html
