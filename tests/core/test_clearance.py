@@ -64,6 +64,7 @@ def test_a_table_over_revolutions_ends_contact_where_it_opens(scene):
     assert contact[0] > 0.0 and np.all(contact[4:] == contact[3]) and steps["none"][6][0] > contact[6]
 
 
+@pytest.mark.slow
 def test_the_gap_follows_the_table_in_both_engines():
     casing = replace(DIRECT.casing, rise_fraction=0.0, change_revolutions=(0.0, 1.0, 2.5), change=(0.0, 1e-4, -2e-5))
     for scene in (replace(DIRECT, casing=casing), replace(ABRADABLE, casing=casing)):
@@ -150,6 +151,7 @@ def test_rotation_that_leaves_no_stiffness_is_refused():
         rotation_amplitudes(np.array([1e-7, -1e-6]), np.array([900.0, 1000.0, 2000.0]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exact_gap", [False, True])
 @pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
 def test_a_growing_blade_is_the_grown_one(scene, exact_gap):

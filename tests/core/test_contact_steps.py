@@ -499,6 +499,7 @@ def test_both_engines_find_the_same_penetration(scene, integrator):
     assert ours.totals["largest_penetration"] == pytest.approx(theirs.totals["largest_penetration"], rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.0, 0.15])
 def test_forces_of_twenty_patches_are_those_of_the_complementarity_problem(friction):
     """Static modes move neighbours together: after each sample the forces are those of Murty's rule on the gaps there."""

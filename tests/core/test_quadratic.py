@@ -179,6 +179,7 @@ def test_the_motion_of_a_blade_that_softens_is_bounded(softening):
     np.testing.assert_allclose(samples[0], samples[1], rtol=0, atol=1e-6 * np.abs(samples[1]).max())
 
 
+@pytest.mark.slow
 def test_free_flight_is_that_of_its_equations(contact):
     """From 10 mm at the leading edge, by SciPy's integration of the same modes, and without loss of energy."""
     simulation = Simulation(contact, SPEED, FAR, replace(CHOICE, time_step=1.6e-6))

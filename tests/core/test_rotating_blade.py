@@ -118,6 +118,7 @@ def moved_by_the_model(displaced, mesh, loads, motion):
     return outwards(mesh, rotated + shape, rotated)
 
 
+@pytest.mark.slow
 def test_motion_of_the_tip_in_the_full_model(displaced, mesh, rotation, equilibrium, loads):
     """Three millimetres there and back, by Newton's method from the reduced model's answer on."""
     for motion in (-3.0, 3.0):
@@ -173,6 +174,7 @@ def test_files_hold_the_model(displaced, tmp_path):
     assert model.modes_at(SPEED)[0][0] == pytest.approx(displaced.modes(SPEED, 1)[0][0], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_rotating_has_the_modes_alone(reduced, displaced, steel):
     model = reduced(kinematics="rotating")
     assert model.quadratic is None

@@ -81,6 +81,7 @@ def on_patches(mesh, matrices, patched, tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_patches_of_full_matrices(on_patches, patched, imported):
     """Nodes on the line, and no elements: hats of straight pieces, on a coarse mesh within a percent of the elements' own."""
     again = imported(on_patches, replace(PATCHES, nodes=5))
@@ -91,6 +92,7 @@ def test_patches_of_full_matrices(on_patches, patched, imported):
     np.testing.assert_allclose(again.contact_chord, patched.contact_chord, atol=0.02)
 
 
+@pytest.mark.slow
 def test_patches_of_reduced_matrices_keep_every_motion(every, imported, tmp_path):
     """A small model on all nodes of the edge, taken with other coordinates: its modes are the same, its patches means."""
     write_reduced_matrices(every, SPEEDS, tmp_path)

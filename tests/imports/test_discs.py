@@ -124,6 +124,7 @@ def test_frequencies_have_nodal_diameters(model, tmp_path):
     assert crossing_of(both.sel(blade="Disc"), "1B", 8) != pytest.approx(crossing_of(alone, "1B", 8), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_rub_on_a_stiff_disc_is_that_of_the_clamped_blade(sector, model):
     """All of the disc clamped; on the disc itself the motion differs."""
     rim = np.flatnonzero(np.hypot(*sector.points[:, :2].T) < 0.17 + 1e-6)

@@ -17,6 +17,7 @@ from r37core.time_integration.speed_run import run_speed
 from r37studies.fields import WorstInstant, displacement_of, stress_of
 
 
+@pytest.mark.slow
 def test_stress_is_that_of_both_displacements_together(whole, mesh, steel):
     """Of the sum of the displacements, from the elements themselves; not the sum of two von Mises stresses."""
     contact, speed = contact_model(whole, "pressure_edge"), 1500.0
@@ -42,6 +43,7 @@ def test_stress_is_that_of_both_displacements_together(whole, mesh, steel):
     np.testing.assert_allclose(everywhere[0], alone, rtol=0, atol=1e-6 * np.abs(alone).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rotates", [False, True])
 def test_stress_is_that_of_the_whole_displacement(displaced, mesh, steel, rotates):
     """With that of rotation, or less it.

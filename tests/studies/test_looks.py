@@ -103,6 +103,7 @@ def asked(lined, monkeypatch):
     return speeds
 
 
+@pytest.mark.slow
 def test_what_is_run_where_nothing_fails_and_each_is_the_run_that_it_claims_to_be(lined, contact):
     found = dict(looks_of(lined, NEEDS, evidence()))
     # (1310^2 - 1300^2) / 2 over four revolutions

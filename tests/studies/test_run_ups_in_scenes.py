@@ -41,6 +41,7 @@ def samples_of(integration):
     return np.concatenate([stage.samples for stage in integration.segments()])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "scene", "choice", "speed"),
     [

@@ -90,6 +90,7 @@ def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact,
     np.testing.assert_allclose(taken[1], 0.5 * taken[0], rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_share_of_the_limit_is_of_the_fastest_mode_at_the_middle_speed(contact):
     """The same step at all speeds, that of 1% above the middle one: 2 over the highest angular frequency."""
     choice = replace(CHOICE, integrator="central_difference", samples_per_revolution=1)
