@@ -14,4 +14,7 @@ with suppress(OSError):
 if sys.platform == "linux" and not os.access(_cache, os.W_OK):
     sys.exit(f"XDG_CACHE_HOME: found the cache folder {_cache}, which Snakemake cannot write; allowed: a folder that it can")
 
+# where the home cannot be written
+os.environ.setdefault("XDG_CACHE_HOME", str(_cache))
+
 __all__ = ["Executor", "common_settings"]

@@ -15,8 +15,9 @@ from stubbed_runs import copy_stubbed
 from warm_snakemake import started
 from workflow_runs import LONGEST, environment, snakemake, wait_until
 
+from r37core import __version__
 from r37core.console import failures, snakemake_run
-from r37core.console.progress import Progress, quieten
+from r37core.console.progress import Progress, change_in_words, quieten
 from r37core.sweep import counts
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
@@ -162,8 +163,22 @@ def test_a_rule_that_runs_again_says_once_what_has_changed():
     ):
         said(progress, "job_info", "", jobid=number, rule_name=rule, wildcards={}, output=["a"], reason=reason)
     told = [line for line in progress.stream.getvalue().splitlines() if "again" in line]
-    assert told[:2] == ["geometry runs again: before: 'round' now: 'blunt'", "mesh runs again: Updated input files: fan.msh"]
+    assert told[:2] == ["geometry runs again: 'round' is 'blunt' now", "mesh runs again: Updated input files: fan.msh"]
     assert told[2].startswith("wear runs again: Code has changed") and len(told[2]) < 330 and told[2].endswith("...")
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        ("before: {'a': 1.0, 'b': inf, 'c': 2} now: {'a': 1.5, 'b': inf, 'd': 2}", "a was 1.0 and is 1.5; c was 2 and is None"),
+        ("before: '0123456789abcdef' now: '123456789abcdef0'", f"code of its step has changed; this is r37 {__version__}"),
+        ("before: 3 now: [1]", "3 is [1] now"),
+        ("before: <object> now: <object>", "before: <object>"),
+        ("before:  now: 3", "before:  now: 3"),
+    ],
+)
+def test_what_has_changed_is_said_in_words(change, words):
+    assert change_in_words(change).startswith(words)
 
 
 def test_diverged_runs_are_counted(clock, tmp_path):

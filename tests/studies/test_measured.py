@@ -200,8 +200,13 @@ def test_amplitudes_of_a_signal_survive_a_tachometers_noise_and_a_rising_speed(r
         ("frequency (Hz),a_um\n9000,1\n", READING, "frequencies, .*, and no speed"),
         ("f (Hz),a_um\n173.5,1\n", reading(speed_rpm=20820 / 3), "no line near an engine order"),
         ("n_rpm,a_um\n9,1\n10,2\n11,3\n10,4\n9,5\n", READING, "a sweep up and one down"),
-        ("angle (turns),a_um\n0,1\n1,2\n", WORN, "differ in 'angle .turns.', whose unit is not known"),
+        ("angle (turns),a_um\n0,1\n1,2\n", WORN, "differ in 'angle .turns.', which is not read"),
         ("n_rpm,a_um\n9,1e308\n", READING, "found '1e308'"),
+        ("n_rpm,a_um\n9,1\n10,2\n11,3\n10,4\n9,5\n10,6\n11,7\n", READING, "sweeps up, down, up"),
+        ("n_rpm,gauge,a_um\n9,A,1\n9,B,2\n", READING, r"differ in 'gauge', .* rows: { gauge: ... }"),
+        ("n_rpm,frequency (Hz),a_um\n9,1,1\n9,2,2\n", READING, "differ in 'frequency .Hz.'"),
+        ("f (Hz),a_um\n9,1\n10,2\n", READING, "frequencies, f .Hz., and no speed"),
+        ("n_rpm;a_um\n9,400;1,250\n", READING, "line 2: 9,400 may be 9.400 or 9400: write points"),
     ],
 )
 def test_a_signal_that_tells_nothing_says_what_would(read, text, entry, told):

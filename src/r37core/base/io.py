@@ -76,7 +76,8 @@ def atomic_write(file: Path | str) -> Iterator[Path]:
     file = Path(file)
     with room_for(file):
         file.parent.mkdir(parents=True, exist_ok=True)
-        partial = file.with_name(f".{file.stem}.partial{file.suffix}")
+        # several processes may write the same file: the last one's counts
+        partial = file.with_name(f".{file.stem}.{os.getpid()}.partial{file.suffix}")
         try:
             yield partial
             if shutil.disk_usage(file.parent).free < FULL_DISK:

@@ -8,15 +8,18 @@ with its colours, must stand in every profile, and where its package is not foun
 import atexit
 import contextlib
 import logging
+import re
 import sys
 import threading
 import time
+from ast import literal_eval
 from collections import Counter
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
+from r37core import __version__
 from r37core.base.io import InputFileError
 from r37core.sweep.counts import counted_simulations
 from r37core.time_integration.speed_file import read_status
@@ -44,6 +47,7 @@ _SILENT_S, _SILENT_ELSEWHERE_S = 10.0, 30.0
 """Longest time without a line, on a terminal and elsewhere, and how long a job runs before the line says for how long."""
 
 
+_INFINITE, _HASH = re.compile(r"\binf\b"), re.compile("[0-9a-f]{16,}")
 _MOST_CHANGES, _LONGEST_CHANGE = 3, 300
 """Rules that are named as they run again, and letters of what has changed."""
 
@@ -114,7 +118,7 @@ class Progress(logging.Filter):
         if changes and rule not in {"configuration", *self._again} and len(self._again) < _MOST_CHANGES:
             self._again.add(rule)
             self._close_line()
-            text = " ".join(changes[0].split()).rpartition("across all output: ")[2]
+            text = change_in_words(" ".join(changes[0].split()).rpartition("across all output: ")[2])
             self.stream.write(f"{rule} runs again: {text[:_LONGEST_CHANGE]}{'...' * (len(text) > _LONGEST_CHANGE)}\n")
 
     def line(self) -> str:
@@ -181,6 +185,28 @@ class Progress(logging.Filter):
         if self._open:
             self.stream.write("\n")
             self._open = False
+
+
+def change_in_words(change: str) -> str:
+    """Parameters of a job that have changed, of Snakemake's `before: ... now: ...`; another text as it is.
+
+    Of mappings only values that differ count. A hash stands for code.
+    """
+    found = re.fullmatch("before: (.*) now: (.*)", change)
+    try:
+        before, now = (literal_eval(f"[{re.sub(_INFINITE, '1e999', part)}]") for part in found.groups()) if found else ([], [])
+    except (SyntaxError, ValueError):
+        return change
+    if any(_HASH.fullmatch(str(each)) for each in now):
+        return f"code of its step has changed; this is r37 {__version__}"
+    parts = []
+    for old, new in zip(before, now, strict=False):
+        if isinstance(old, dict) and isinstance(new, dict):
+            keys = [key for key in {**old, **new} if old.get(key) != new.get(key)]
+            parts += [f"{key} was {old.get(key)!r} and is {new.get(key)!r}" for key in keys]
+        else:
+            parts.append(f"{old!r} is {new!r} now")
+    return "; ".join(parts) or change
 
 
 def quieten(handlers: Collection[logging.Handler], progress: Progress) -> bool:

@@ -90,8 +90,19 @@ def content_digest(file: Path | str) -> str:
 
 
 def users_cache() -> Path:
-    """The user's cache folder for r37, which may not be there yet."""
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "r37"
+    """The user's cache folder for r37, which may not be there yet; a private temporary one where the home cannot be written."""
+    if named := os.environ.get("XDG_CACHE_HOME"):
+        return Path(named) / "r37"
+    folder = Path(os.path.expanduser("~/.cache"))
+    # a user without a home has the letter ~
+    if folder.is_absolute():
+        with suppress(OSError):
+            folder.mkdir(parents=True, exist_ok=True)
+        if os.access(folder, os.W_OK):
+            return folder / "r37"
+    private = _private_folder(Path(tempfile.gettempdir()))
+    _tell(f"{folder} cannot be written: machine code and structures are kept in {private}; XDG_CACHE_HOME names another")
+    return (private or folder) / "r37"
 
 
 def named_folder() -> Path:
@@ -191,18 +202,25 @@ def _folder() -> Path:
     """The user's own folder of machine code: nobody else may write what is run. PermissionError where there is none."""
     package, users, temporary = _PACKAGE / "__pycache__", named_folder(), Path(tempfile.gettempdir())
     for parent in (package, users, temporary):
-        folder = parent / f"r37-{os.getuid()}"
-        with suppress(OSError):
-            folder.mkdir(0o700, parents=True, exist_ok=True)
-            state = folder.lstat()
-            # links have all rights
-            if state.st_uid != os.getuid() or state.st_mode & 0o022:
-                _tell(f"{folder}: not used, as others may write it; remove it, and machine code is compiled there anew")
-            elif os.access(folder, os.W_OK):
-                if parent == temporary:
-                    _tell(f"{package} and {users} cannot be written: machine code is kept in {folder}; R37_CACHE names another")
-                return folder
+        if folder := _private_folder(parent):
+            if parent == temporary:
+                _tell(f"{package} and {users} cannot be written: machine code is kept in {folder}; R37_CACHE names another")
+            return folder
     raise PermissionError("R37_CACHE: found no folder that can be written for machine code; allowed: a folder that can")
+
+
+def _private_folder(parent: Path) -> Path | None:
+    """A folder in `parent` that its user alone may write, made where it is missing; None where it cannot be."""
+    folder = parent / f"r37-{os.getuid()}"
+    with suppress(OSError):
+        folder.mkdir(0o700, parents=True, exist_ok=True)
+        state = folder.lstat()
+        # links have all rights
+        if state.st_uid != os.getuid() or state.st_mode & 0o022:
+            _tell(f"{folder}: not used, as others may write it; remove it, and it is made anew")
+        elif os.access(folder, os.W_OK):
+            return folder
+    return None
 
 
 _tell = cache(logging.getLogger("r37").warning)

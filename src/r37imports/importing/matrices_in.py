@@ -13,11 +13,13 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import scipy.linalg as la
 import scipy.sparse as sp
 
+from r37core.base.io import TextFileError, read_text
 from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
+from r37core.blade.profile import BladeShapeError
+from r37core.blade.profile_tables import number_rows
 from r37core.fem.solver import Solve, factorise
 from r37core.rom.boundary_table import COLUMNS, TIP_LENGTH
 from r37core.rom.contact_weights import TipContact, contact_along, tip_lengths
@@ -213,27 +215,25 @@ def _check_speeds(speeds: list[float], fastest: float) -> None:
 def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
     """Positions of the contact nodes, shape (nodes, 3), the rows of their displacements, shape (3 nodes,), and tip lengths."""
     try:
-        table = pd.read_csv(file, skipinitialspace=True)
-    except Exception as error:
-        raise ImportRefused(f"{file.name}: cannot be read as a table ({error})") from None
-    if tuple(table.columns) not in (COLUMNS, (*COLUMNS, TIP_LENGTH)):
+        rows = number_rows(read_text(file))
+    except (OSError, TextFileError, BladeShapeError) as error:
+        raise ImportRefused(f"{file.name}: {error}") from None
+    if not rows or tuple(rows[0]) not in (COLUMNS, (*COLUMNS, TIP_LENGTH)):
+        found = f"columns {', '.join(rows[0])}" if rows else "no contact nodes"
         raise ImportRefused(
-            f"{file.name}: found columns {', '.join(map(str, table.columns))}; allowed: {', '.join(COLUMNS)}, and {TIP_LENGTH} "
-            "or none behind them"
+            f"{file.name}: found {found}; allowed: a row for each, with {', '.join(COLUMNS)}, and {TIP_LENGTH} or none "
+            "behind them"
         )
-    if table.empty:
-        raise ImportRefused(f"{file.name}: found no contact nodes; allowed: one or more rows below the names of the columns")
-    numbers = table.apply(pd.to_numeric, errors="coerce").to_numpy(dtype=float)
-    places, rows, lengths = numbers[:, :3], numbers[:, 3:6], numbers[:, 6:].ravel()
-    wrong = ~np.isfinite(numbers).all(axis=1) | (rows % 1.0 != 0.0).any(axis=1) | (numbers[:, 6:] <= 0.0).any(axis=1)
-    if wrong.any():
+    numbers = np.array([[*row.values()] for row in rows])
+    places, rows_of_nodes, lengths = numbers[:, :3], numbers[:, 3:6], numbers[:, 6:].ravel()
+    if (wrong := (rows_of_nodes % 1.0 != 0.0).any(axis=1) | (numbers[:, 6:] <= 0.0).any(axis=1)).any():
         raise ImportRefused(
-            f"{file.name}:{np.argmax(wrong) + 2}: each row must have three coordinates, three row numbers and, in a column "
+            f"{file.name}: contact node {np.argmax(wrong) + 1} must have three whole numbers of rows and, in a column "
             f"{TIP_LENGTH}, a length above 0"
         )
     if len(np.unique(places, axis=0)) < len(places):
         raise ImportRefused(f"{file.name}: two contact nodes lie at the same place")
-    return places, rows.astype(np.int64).ravel(), lengths if len(lengths) else None
+    return places, rows_of_nodes.astype(np.int64).ravel(), lengths if len(lengths) else None
 
 
 def _fitted(speeds: np.ndarray, stiffness: list[sp.csr_array]) -> tuple[sp.csr_array, sp.csr_array, float]:

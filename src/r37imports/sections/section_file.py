@@ -1,7 +1,5 @@
 """Files of section curves, by their endings: .curve, .crv, .geomTurbo, .csv."""
 
-import csv
-import io
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -11,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.io import TextFileError, read_text
+from r37core.base.table_text import TableTextError, table_rows
 from r37core.base.units import LENGTH_UNITS
 from r37core.blade.profile import BladeShapeError
 
@@ -83,26 +82,25 @@ def read_table(text: str) -> SectionFile:
 
     Columns section, x, y, z, and side where the two sides of a section are apart.
     """
-    delimiter = ";" if ";" in text.partition("\n")[0] else ","
-    reader = csv.DictReader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
     # section -> side -> points
     sections: dict[str, dict[str, list[list[float]]]] = {}
     lines: dict[str, int] = {}
     try:
-        reader.fieldnames = header = [column.strip().lower() for column in reader.fieldnames or []]
-        missing = [column for column in _COLUMNS if column not in header]
-        if missing:
+        rows = table_rows(text)
+        first, header = next(rows, (1, []))
+        header = [title.lower() for title in header]
+        if missing := [column for column in _COLUMNS if column not in header]:
             lacking = f"the table lacks the columns {', '.join(missing)}"
-            raise TextFileError(1, f"{lacking}; needed: section, x, y, z, separated by commas")
-        for row in reader:
-            if None in row or None in row.values():
-                raise TextFileError(reader.line_num, "the row has more or fewer cells than the first line has columns")
-            name, side = row["section"].strip(), row.get("side", "").strip()
-            lines.setdefault(name, reader.line_num)
-            point = [number_in(row[column].strip(), reader.line_num, f"column {column}") for column in "xyz"]
-            sections.setdefault(name, {}).setdefault(side, []).append(point)
-    except csv.Error as error:
-        raise TextFileError(reader.line_num, f"not readable as a table separated by commas: {error}") from None
+            raise TextFileError(first, f"{lacking}; needed: section, x, y, z, separated by commas")
+        for line, cells in rows:
+            if len(cells) != len(header):
+                raise TextFileError(line, "the row has more or fewer cells than the first line has columns")
+            row = dict(zip(header, cells, strict=True))
+            lines.setdefault(row["section"], line)
+            point = [number_in(row[column], line, f"column {column}") for column in "xyz"]
+            sections.setdefault(row["section"], {}).setdefault(row.get("side", ""), []).append(point)
+    except TableTextError as error:
+        raise TextFileError(error.line, error.reason) from None
     if not sections:
         raise TextFileError(1, "found no rows; needed: section, x, y, z of each point")
     return SectionFile(tuple(_joined_section(sides, lines[name]) for name, sides in sections.items()))

@@ -7,8 +7,12 @@ import pandas as pd
 
 from r37core.base.io import TextFileError, read_text
 from r37core.base.table_text import TableTextError, table_rows
+from r37core.base.units import LENGTH_UNITS
 from r37core.config.document import ConfigError
 from r37core.config.messages import single_line
+
+LENGTHS = LENGTH_UNITS | dict.fromkeys(("mil", "mils", "thou"), 2.54e-5) | {"micron": 1e-6, "microns": 1e-6, "inch": 0.0254}
+"""Units of length in files of tests -> m."""
 
 
 def read_cells(file: Path) -> pd.DataFrame:

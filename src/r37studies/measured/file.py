@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from r37core.base.units import LENGTH_UNITS, RAD_S
+from r37core.base.units import RAD_S
 from r37core.config import ConfigError
 from r37core.config.declaring import si_fields
-from r37studies.measured.csv_cells import read_cells
+from r37studies.measured.csv_cells import LENGTHS, read_cells
 
 from .points import STRAIN, TIP_TIMING, VALUES, WORN_DEPTH, Points, feature_speed
 from .section import ASKED, PHASOR, MeasurementError, MeasurementSection
@@ -24,13 +24,19 @@ _HERTZ = 2.0 * pi
 _SPEED, _ANGLE, _TIME, _LENGTH, _STRAIN, _TURNS = "speed", "angle", "time", "length", "strain", "turns"
 _UNITS = {
     _SPEED: RAD_S
-    | {"rad_s": 1.0, "1/min": RAD_S["rpm"], "hz": _HERTZ, "1/s": _HERTZ}
-    | {"u/min": RAD_S["rpm"], "krpm": 1e3 * RAD_S["rpm"]},
+    | dict.fromkeys(("rad_s", "rad/sec", "rad s-1"), 1.0)
+    | dict.fromkeys(("1/min", "min-1", "u/min", "r/min", "rev/min", "tr/min"), RAD_S["rpm"])
+    | dict.fromkeys(("hz", "1/s", "s-1"), _HERTZ)
+    | {"krpm": 1e3 * RAD_S["rpm"], "khz": 1e3 * _HERTZ},
     _ANGLE: dict.fromkeys(("deg", "degree", "degrees", "\N{DEGREE SIGN}"), pi / 180.0) | {"rad": 1.0},
     _TIME: dict.fromkeys(("s", "sec", "seconds"), 1.0) | {"ms": 1e-3, "us": 1e-6},
-    _LENGTH: LENGTH_UNITS | {"mil": 2.54e-5, "mils": 2.54e-5},
-    _STRAIN: {"strain": 1.0, "m/m": 1.0, "um/m": 1e-6, "microstrain": 1e-6, "ue": 1e-6},
+    _LENGTH: LENGTHS,
+    _STRAIN: {"strain": 1.0, "m/m": 1.0, "mm/m": 1e-3} | dict.fromkeys(("um/m", "microstrain", "ustrain", "ue", "ppm"), 1e-6),
 }
+_ROTOR = re.compile(r"speed|rot|rev|shaft|drehz|omega|(?<![a-z])n\d?(?![a-z])", re.IGNORECASE)
+"""Titles in Hz that are of a speed, not of a frequency of vibration."""
+_LETTERS = str.maketrans({"\u00b5": "u", "\u03bc": "u", "\u03b5": "e", "\u00b7": " ", "^": ""})
+"""Micro, both signs of it, and epsilon of a unit, as its Latin letters; signs that a unit may lack."""
 _UNCERTAINTY = re.compile(r"uncertainty|sigma|std|deviation|error|(?<![a-z])sd(?![a-z])", re.IGNORECASE)
 
 
@@ -89,7 +95,10 @@ def read_points(file: Path, entry: MeasurementSection) -> tuple[Points, tuple[fl
     sigma = _column(cells, "uncertainty", _SPEED if is_speed else kind, entry.uncertainty, uncertain=True)
     constant_speed, speed_title = si_fields(entry).get("speed"), axes[_SPEED]
     is_spectrum = bool(
-        speed_title and not is_speed and _is_frequency(speed_title) and (constant_speed or "freq" in speed_title.lower())
+        speed_title
+        and not (is_speed or named.get(_SPEED))
+        and _is_frequency(speed_title)
+        and (constant_speed or not _ROTOR.search(speed_title))
     )
     if is_spectrum and constant_speed is None:
         raise MeasurementError(
@@ -146,19 +155,22 @@ def _points(
         numbers[_SPEED] = np.full(count, constant_speed)
     if (slow := numbers[_SPEED] <= 0.0).any():
         raise MeasurementError("file", f"found a speed of {numbers[_SPEED][slow][0]:g} rad/s; allowed: above 0")
-    if legs := sweep_legs(numbers[_SPEED]):
+    steps, legs = _turns_of_rows(numbers), sweep_legs(numbers[_SPEED])
+    is_signal = steps is not None and np.median(steps) <= 0.5
+    ways = [way for way, _ in legs]
+    # a speed that wavers during a signal is no sweep
+    if len(legs) > 2 and not is_signal:
+        raise MeasurementError("rows", f"found sweeps {', '.join(ways[:5])}; allowed: one, or one up and one down: their rows")
+    if len(legs) == 2:
         if entry.sweep is None:
             raise MeasurementError("sweep", "found a sweep up and one down; allowed: up or down, each a measurement of its own")
-        numbers = {name: part[legs[entry.sweep]] for name, part in numbers.items()}
-    if _TIME in numbers and len(numbers[_TIME]) > 1:
-        turns = numbers.get(_TURNS, turned(numbers[_TIME], numbers[_SPEED]))
-        if np.median(np.diff(turns)) <= 0.5:
-            return _signal(turns, numbers, entry), ()
-        if np.ptp(numbers[_SPEED]) < 0.01 * numbers[_SPEED].max():
-            rows = f"{1.0 / np.median(np.diff(turns)):.3g} rows a revolution at one speed"
-            raise MeasurementError(
-                "file", f"found times with {rows}; allowed: 2 or more, in their unit, or amplitudes over speeds"
-            )
+        leg = legs[ways.index(entry.sweep)][1]
+        numbers = {name: part[leg] for name, part in numbers.items()}
+    if is_signal:
+        return _signal(numbers.get(_TURNS, turned(numbers[_TIME], numbers[_SPEED])), numbers, entry), ()
+    if steps is not None and np.ptp(numbers[_SPEED]) < 0.01 * numbers[_SPEED].max():
+        rows = f"{1.0 / np.median(steps):.3g} rows a revolution at one speed"
+        raise MeasurementError("file", f"found times with {rows}; allowed: 2 or more, in their unit, or amplitudes over speeds")
     if (negative := numbers["value"] < 0.0).any():
         raise MeasurementError("value", f"found {entry.quantity} {numbers['value'][negative][0]:g}; allowed: 0 or more")
     if is_speed:
@@ -169,6 +181,13 @@ def _points(
     if entry.quantity == WORN_DEPTH and _ANGLE in numbers:
         return _profile(numbers, entry), ()
     return _over_speeds(numbers, entry)
+
+
+def _turns_of_rows(numbers: Mapping[str, np.ndarray]) -> np.ndarray | None:
+    """Revolutions from each row to the next one, of rows with times."""
+    if _TIME not in numbers or len(numbers[_TIME]) < 2:
+        return None
+    return np.diff(numbers.get(_TURNS, turned(numbers[_TIME], numbers[_SPEED])))
 
 
 def _counting_rows(file: Path, entry: MeasurementSection) -> pd.DataFrame:
@@ -191,24 +210,23 @@ def _counting_rows(file: Path, entry: MeasurementSection) -> pd.DataFrame:
 
 
 def _refuse_unread(cells: pd.DataFrame, speed: str | None, read: Set[str | None]) -> None:
-    """Refuse rows of one speed that differ in a number whose unit is not known: their mean would be told of them all."""
+    """Refuse rows of one speed that differ in what is not read: a gauge, a frequency, an unknown unit."""
     groups = cells.groupby(speed) if speed else [("", cells)]
     for title in {*cells} - read - {speed}:
-        numbers = pd.to_numeric(cells[title], errors="coerce")
-        if _kind(title)[0] == "" and any(numbers[rows.index].nunique() > 1 for _, rows in groups):
-            problem = f"found rows of one speed that differ in '{title}', whose unit is not known"
-            raise MeasurementError(
-                "rows", f"{problem}; allowed: a unit of {', '.join(_UNITS[_ANGLE] | _UNITS[_TIME])}, or rows that count"
-            )
+        is_unread = _kind(title)[0] == "" or _is_frequency(title)
+        if is_unread and any(rows[title].nunique() > 1 for _, rows in groups):
+            problem = f"found rows of one speed that differ in '{title}', which is not read"
+            units = ", ".join(_UNITS[_SPEED] | _UNITS[_ANGLE] | _UNITS[_TIME])
+            raise MeasurementError("rows", f"{problem}; allowed: rows: {{ {title}: ... }}, or one of the units {units}")
 
 
 def _is_frequency(title: str) -> bool:
-    return _kind(title) == (_SPEED, _HERTZ)
+    return _kind(title) in ((_SPEED, _HERTZ), (_SPEED, 1e3 * _HERTZ))
 
 
 def _kind(title: str) -> tuple[str, float]:
     """Kind and factor of a column by its title: `speed (rpm)`, `speed [rpm]`, `speed_rpm` or `rpm`."""
-    name = re.sub("[\u00b5\u03bc]", "u", title.lower())
+    name = title.lower().translate(_LETTERS)
     bracket = re.search(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$", name)
     for kind, units in _UNITS.items():
         for unit, factor in units.items():

@@ -1,7 +1,7 @@
 """Engine orders of time signals and spectra: the rotor's angle, amplitudes, and how steady their phases are."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -20,6 +20,9 @@ _LEAST_SHARE = 0.1
 """Least share of the largest amplitude that counts."""
 
 _LEAST_COHERENCE, _LONGEST = 0.5, 1e7
+
+_GOES = 0.8
+"""Least correlation of speeds with their rows in a sweep one way; it may stay at its ends."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,15 +76,22 @@ def order_amplitudes(turns: np.ndarray, speeds: np.ndarray, values: np.ndarray, 
         )
     count = max(int(total / _PART), 1)
     parts = np.minimum(((turns - turns[0]) / total * count).astype(int), count - 1)
+    # gaps in a record leave parts without enough samples
+    filled = np.flatnonzero(np.bincount(parts, minlength=count) > 2 * highest)
+    kept = np.isin(parts, filled)
+    if len(filled) < 1:
+        raise MeasurementError("file", "found a time signal with more gaps than samples; allowed: a record without them")
+    turns, speeds, values, count = turns[kept], speeds[kept], values[kept], len(filled)
+    parts = np.searchsorted(filled, parts[kept])
     fits = [_fitted(turns[parts == part], values[parts == part], highest) for part in range(count)]
     waves, rest, noise = (np.array(each) for each in zip(*fits, strict=True))
-    middles = np.array([np.median(speeds[parts == part]) for part in range(count)])
+    middles = np.array([np.mean(speeds[parts == part]) for part in range(count)])
     width = np.ptp(middles) or 1.0
     groups = np.clip(np.ceil(np.ptp(middles) / middles.mean() / _STEADY), 1, max(min(count // 2, MOST_SPEEDS), 1))
     _, places = np.unique(np.minimum((middles - middles.min()) / width * groups // 1, groups - 1), return_inverse=True)
 
-    def group_means(part: np.ndarray, middle: Callable[..., np.ndarray] = np.mean) -> np.ndarray:
-        return np.array([middle(part[places == group], axis=0) for group in range(places.max() + 1)])
+    def group_means(part: np.ndarray) -> np.ndarray:
+        return np.array([part[places == group].mean(axis=0) for group in range(places.max() + 1)])
 
     amplitudes = np.sqrt(np.maximum(group_means(np.abs(waves) ** 2 - noise[:, None]), 0.0))
     largest = amplitudes.max(axis=0)
@@ -100,7 +110,7 @@ def order_amplitudes(turns: np.ndarray, speeds: np.ndarray, values: np.ndarray, 
     explained = max(1.0 - float(rest.mean() / max(np.var(values), 1e-300)), 0.0)
     remark = f"engine orders explain {explained:.0%} of the signal, coherence {coherence:.2f}"
     samples = np.bincount(places[parts])
-    return OrderAmplitudes(group_means(middles, np.median), orders, amplitudes[:, orders - 1], samples, remark)
+    return OrderAmplitudes(group_means(middles), orders, amplitudes[:, orders - 1], samples, remark)
 
 
 def spectrum_amplitudes(
@@ -135,16 +145,16 @@ def _fitted(turns: np.ndarray, values: np.ndarray, highest: int) -> tuple[np.nda
     return numbers[1 : highest + 1] - 1j * numbers[highest + 1 :], variance, 4.0 * variance / len(turns)
 
 
-def sweep_legs(speeds: np.ndarray) -> dict[str, slice]:
-    """Rows of a sweep up and of a sweep down, where the speeds (rad/s) in the order of their rows are both; else none."""
-    turns = {"up": int(speeds.argmax()), "down": int(speeds.argmin())}
-    for first, second in (("up", "down"), ("down", "up")):
-        legs = {first: slice(0, turns[first] + 1), second: slice(turns[first], len(speeds))}
-        if all(_goes(speeds[legs[name]], 1.0 if name == "up" else -1.0, np.ptp(speeds)) for name in legs):
-            return legs
-    return {}
-
-
-def _goes(speeds: np.ndarray, sense: float, span: float) -> bool:
-    """True where speeds go one way over most of the span."""
-    return len(speeds) >= 3 and np.ptp(speeds) > 0.5 * span and np.corrcoef(np.arange(len(speeds)), speeds)[0, 1] * sense > 0.9
+def sweep_legs(speeds: np.ndarray) -> list[tuple[str, slice]]:
+    """Rows of each sweep `up` and `down` through most of the speeds (rad/s), in the order of the rows; none of a single one."""
+    share = (speeds - speeds.min()) / (np.ptp(speeds) or 1.0)
+    ends = np.flatnonzero((share < 0.25) | (share > 0.75))
+    stays = np.split(ends, np.flatnonzero(np.diff(share[ends] > 0.5)) + 1)
+    turns = [int(stay[np.abs(share[stay] - 0.5).argmax()]) for stay in stays[1:-1]]
+    legs = [slice(first, last + 1) for first, last in pairwise([0, *turns, len(speeds) - 1])]
+    if len(legs) < 2 or min(leg.stop - leg.start for leg in legs) < 3:
+        return []
+    correlations = [np.corrcoef(np.arange(leg.stop - leg.start), speeds[leg])[0, 1] for leg in legs]
+    if np.abs(correlations).min() < _GOES:
+        return []
+    return [("up" if way > 0.0 else "down", leg) for way, leg in zip(correlations, legs, strict=True)]

@@ -8,19 +8,18 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from r37core.base.units import LENGTH_UNITS
 from r37core.config import ConfigError
 from r37core.config.messages import did_you_mean, single_line
-from r37studies.measured.csv_cells import read_cells
+from r37studies.measured.csv_cells import LENGTHS, read_cells
 
-_NEEDED, _FORCE_UNITS = ("depth", "force", "thickness", "width"), {"n": 1.0, "kn": 1e3}
-_UNITS = dict.fromkeys(_NEEDED, LENGTH_UNITS) | dict.fromkeys(("force", "uncertainty"), _FORCE_UNITS)
+_NEEDED, _FORCE_UNITS = ("depth", "force", "thickness", "width"), {"n": 1.0, "kn": 1e3, "lbf": 4.4482216}
+_UNITS = dict.fromkeys(_NEEDED, LENGTHS) | dict.fromkeys(("force", "uncertainty"), _FORCE_UNITS)
 _UNITS |= {"speed": {"m_s": 1.0}, "test": {"": 1.0}}
 """Quantity of a column -> unit at the end of the column's name -> what one of it is in the SI."""
 
 
-_FALLS = 0.8
-"""Mean force on deeper points, over that on others, below which forces fall with depth."""
+_FALLS = -0.2
+"""Correlation of forces with depths below which they fall."""
 
 
 def read_rub_test(table: Path | str | Mapping[str, Any], constant: Mapping[str, float]) -> pd.DataFrame:
@@ -53,9 +52,7 @@ def _points(cells: pd.DataFrame, constant: Mapping[str, float]) -> pd.DataFrame:
     if len(pressed) < 2 or not pressed.mean() > 0.0:
         numbers = f"{len(pressed)} points with a depth above 0 and a mean force of {pressed.mean():g} N"
         raise ConfigError(f"found {numbers}; allowed: two or more, with forces that are positive while the tool presses")
-    loading = points[(points.depth >= points.deepest) & (points.depth > 0.0)]
-    deep = loading.depth > loading.depth.median()
-    if deep.sum() > 0 and loading.force[deep].mean() < _FALLS * loading.force[~deep].mean():
+    if np.corrcoef(points.depth, points.force)[0, 1] < _FALLS:
         raise ConfigError(
             "found forces that fall with depth while the tool goes in; allowed: forces that grow, with depths from the "
             "lining's surface on, and a column test where the tool returns"
