@@ -192,9 +192,9 @@ def change_in_words(change: str) -> str:
 
     Of mappings only values that differ count. A hash stands for code.
     """
-    found = re.fullmatch("before: (.*) now: (.*)", change)
+    match = re.fullmatch("before: (.*) now: (.*)", change)
     try:
-        before, now = (literal_eval(f"[{re.sub(_INFINITE, '1e999', part)}]") for part in found.groups()) if found else ([], [])
+        before, now = (literal_eval(f"[{re.sub(_INFINITE, '1e999', part)}]") for part in match.groups()) if match else ([], [])
     except (SyntaxError, ValueError):
         return change
     if any(_HASH.fullmatch(str(each)) for each in now):

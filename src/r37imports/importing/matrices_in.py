@@ -219,9 +219,9 @@ def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
     except (OSError, TextFileError, BladeShapeError) as error:
         raise ImportRefused(f"{file.name}: {error}") from None
     if not rows or tuple(rows[0]) not in (COLUMNS, (*COLUMNS, TIP_LENGTH)):
-        found = f"columns {', '.join(rows[0])}" if rows else "no contact nodes"
+        content = f"columns {', '.join(rows[0])}" if rows else "no contact nodes"
         raise ImportRefused(
-            f"{file.name}: found {found}; allowed: a row for each, with {', '.join(COLUMNS)}, and {TIP_LENGTH} or none "
+            f"{file.name}: found {content}; allowed: a row for each, with {', '.join(COLUMNS)}, and {TIP_LENGTH} or none "
             "behind them"
         )
     numbers = np.array([[*row.values()] for row in rows])
