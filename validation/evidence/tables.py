@@ -4,7 +4,11 @@ import csv
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+import xarray as xr
+
 from r37core.base.io import atomic_write
+from r37core.results.danger import ranges_of
+from r37core.results.exceedance import length_of
 
 
 def write_table(head: Sequence[str], rows: Iterable[Sequence[str]], file: Path | str) -> None:
@@ -17,3 +21,8 @@ def read_table(file: Path | str) -> list[list[str]]:
     """Rows of a table, the head first."""
     with open(file, newline="", encoding="utf-8") as stream:
         return list(csv.reader(stream))
+
+
+def danger_cell(response: xr.Dataset) -> str:
+    """Lengths (rad/s) of dangerous, unknown and sustained speeds of a response, as a cell."""
+    return " / ".join(f"{length_of(parts):.0f}" for parts in ranges_of(response).values())

@@ -4,16 +4,14 @@ from evidence.plan import Item, Run, table
 
 from plan.runs import ALL_SPEEDS, BLADES, DECIDING, SCENES
 
-LINED = [f"{kind}_abradable" for kind in ("twice", "friction")]
-BARE = [f"{kind}_direct" for kind in ("twice", "friction", "elastic")]
-# on the bare casing all speeds count, on the lining those about 1B/4, with carried motions; CS100 has its 1B/4 elsewhere
+LINED, BARE = ([f"{kind}_{contact}" for kind in ("twice", "friction", "elastic")] for contact in ("abradable", "direct"))
+# on the bare casing all speeds count, on the lining those about 1B/4; CS100 has its 1B/4 elsewhere
 COARSE = [{"start": 750, "stop": 2000, "step": 50}]
 ABOUT_1B_4 = {"": (1540, 1780), "_CS100": (1300, 1440)}
-CARRIED = ALL_SPEEDS.content["second_motions"]
 
 
 def tried(name, lined, bare, **changes):
-    """Runs of other scenes or at another level: one of each group of blades that have their 1B/4 at the same speeds."""
+    """Runs of other scenes or at another level: one for each group of blades that have their 1B/4 at the same speeds."""
     for group, (first, last) in ABOUT_1B_4.items():
         yield Run(
             name + group,
@@ -23,7 +21,6 @@ def tried(name, lined, bare, **changes):
                 "blades": [blade for blade in BLADES if (blade == "CS100") == bool(group)],
                 "speeds": COARSE,
                 "speeds_for": [{"scenes": lined, "speeds": [{"start": first, "stop": last, "step": 10}]}],
-                "second_motions": {"scenes": lined, **CARRIED, "from_rad_s": first, "to_rad_s": last},
                 **changes,
             },
             priority=2,
@@ -43,13 +40,12 @@ LINEAR = Run(
 )
 
 RESPONSES = {"quadratic": ALL_SPEEDS.responses(BLADES, *SCENES), "linear": LINEAR.responses(BLADES, *SCENES)}
-MOTIONS = {"motions": f"{ALL_SPEEDS.folder}/second_motions.nc"}
 
 EVIDENCE = [
     Item(
         "evidence.answers.draw",
         {"table": table("answer"), "picture": "docs/answer.png"},
-        {"ranking": f"{ALL_SPEEDS.folder}/ranking.csv", "linear": f"{LINEAR.folder}/ranking.csv"},
+        {"ranking": f"{ALL_SPEEDS.folder}/ranking.csv"},
     ),
     Item(
         "evidence.answers.checks",
@@ -57,20 +53,17 @@ EVIDENCE = [
         {
             "ranking": f"{ALL_SPEEDS.folder}/ranking.csv",
             "base": ALL_SPEEDS.responses(BLADES, *SCENES),
-            "bare": [
-                file for scene in BARE for run in (CASES, CASES_CS100) for file in run.responses(run.keys["blades"], scene)
+            "others": [
+                *(file for run in (CASES, CASES_CS100) for file in run.responses(run.keys["blades"], *LINED, *BARE)),
+                *(file for run in (COARSER, COARSER_CS100) for file in run.responses(run.keys["blades"], *SCENES)),
             ],
-            "draft": [file for run in (COARSER, COARSER_CS100) for file in run.responses(run.keys["blades"], "direct")],
-            **MOTIONS,
-            "lined": [f"{run.folder}/second_motions.nc" for run in (CASES, CASES_CS100)],
-            "lined_draft": [f"{run.folder}/second_motions.nc" for run in (COARSER, COARSER_CS100)],
         },
     ),
     Item(
         "evidence.answers.interactions",
         {"lining": table("interactions_lining"), "bare": table("interactions_bare")},
         {
-            **MOTIONS,
+            "motions": f"{ALL_SPEEDS.folder}/second_motions.nc",
             "campbell": f"{ALL_SPEEDS.folder}/campbell.nc",
             "summary": f"{ALL_SPEEDS.folder}/summary.csv",
             "base": ALL_SPEEDS.responses(BLADES, *SCENES),
