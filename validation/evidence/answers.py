@@ -91,7 +91,7 @@ def _bars(axes: Axes, lengths: pd.DataFrame) -> None:
     dangerous, unknown, sustained, _ = (lengths[column] for column in DRAWN_LENGTHS)
     places = np.arange(len(lengths), dtype=float)
     axes.barh(places, dangerous, 0.6, color="#D55E00", label="dangerous")
-    axes.barh(places, unknown, 0.6, dangerous, color="none", edgecolor=_NEUTRAL, hatch="////", label="unknown")
+    axes.barh(places, unknown, 0.6, dangerous, label="unknown", **style.UNKNOWN | {"edgecolor": _NEUTRAL})
     axes.plot(sustained, places, "|", color="#0072B2", markersize=16, markeredgewidth=2.5, label="sustained")
     axes.set(yticks=places, yticklabels=lengths.index, xlim=(0.0, 1250.0))
     axes.invert_yaxis()

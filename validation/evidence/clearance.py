@@ -11,7 +11,6 @@ from r37core.fem.material import Material
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.danger import ratio_inside
 from r37core.results.measures import peak_of
-from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
@@ -19,7 +18,7 @@ from r37core.time_integration.clearance import growth
 
 from .calculix import displacements
 from .configuration import settings_of
-from .tables import write_table
+from .tables import danger_cell, write_table
 
 
 def tip(input: Any, output: Any, params: Any) -> None:
@@ -40,20 +39,23 @@ def tip(input: Any, output: Any, params: Any) -> None:
 
 
 def effect(input: Any, output: Any, params: Any) -> None:
-    """Largest motion and stress, and length above yield, with the clearance at speed and at rest. Inputs: fixed, growing."""
+    """Largest motion, stress inside the model, and lengths, with the clearance at speed and at rest. Inputs: fixed, growing."""
     rows = []
     for blade, *files in zip(params.blades, input.fixed, input.growing, strict=True):
         pair = [read_judged(file) for file in files]
-        lengths = [robustness(run, chance_scatter=False)["length_most_revolutions_rad_s"] for run in pair]
         rows.append(
             [
                 blade,
                 " → ".join(f"{float(peak_of(run)['speed']):.0f}" for run in pair),
                 " → ".join(f"{float(ratio_inside(run).max()):.2f}" for run in pair),
-                " → ".join(f"{length:.0f}" for length in lengths),
+                " → ".join(map(danger_cell, pair)),
             ]
         )
-    write_table(["blade", "largest motion at (rad/s)", "largest stress / yield", "above yield (rad/s)"], rows, output.table)
+    write_table(
+        ["blade", "largest motion at (rad/s)", "largest stress / yield", "dangerous / unknown / sustained (rad/s)"],
+        rows,
+        output.table,
+    )
 
 
 def _ends(nearer: np.ndarray) -> str:

@@ -5,8 +5,10 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.patches import Rectangle
 
 from r37core.figures import style
+from r37core.results.events import Danger
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
 
@@ -16,37 +18,45 @@ CLEARANCE, THICKNESS = "scene.casing.clearance_m", "scene.lining.thickness_m"
 
 
 def lengths(input: Any, output: Any, params: Any) -> None:
-    """Lengths above yield and largest stress over lining and clearance. Input: designs. Outputs: table, picture."""
+    """Dangerous and unknown lengths, and largest stress inside the model, over lining and clearance. Input: designs.
+
+    Outputs: table, picture.
+    """
     designs = read_table(input.designs).sort_values(CLEARANCE, kind="stable")
     clearances = [f"{1e3 * clearance:.2f} mm" for clearance in designs[CLEARANCE].unique()]
     rows = []
     for (blade, thickness), part in designs.groupby(["blade", THICKNESS], sort=False):
-        numbers = zip(part["length_most_revolutions_rad_s"], part["largest_stress_over_yield"], strict=True)
-        rows.append([blade, f"{1e3 * thickness:g}", *(f"{length:.0f} ({stress:.2f})" for length, stress in numbers)])
+        numbers = part[["length_dangerous_rad_s", "length_unknown_rad_s", "largest_stress_over_yield"]].itertuples(index=False)
+        rows.append([blade, f"{1e3 * thickness:g}", *("{:.0f} / {:.0f} ({:.2f})".format(*row) for row in numbers)])
     write_table(["blade", "lining (mm)", *clearances], rows, output.table)
     draw_stresses(designs, output.picture)
 
 
 def draw_stresses(designs: pd.DataFrame, file: str) -> None:
-    """A map of the largest stress for each blade: thickness of the lining over clearance."""
+    """A map of the largest stress for each blade: thickness of the lining over clearance; hatched where speeds are unknown."""
     blades = designs["blade"].unique()
     sizes: dict[Any, int] = dict.fromkeys(("font.size", *(f"{name}size" for name in ("axes.title", "axes.label"))), 9)
     with plt.rc_context(sizes | dict.fromkeys(("xtick.labelsize", "ytick.labelsize"), 9)):
         figure, panels = plt.subplots(len(blades), 1, figsize=(4.6, 1.75 * len(blades)), sharex=True)
         for axes, blade in zip(panels, blades, strict=True):
             part = designs[designs["blade"] == blade]
-            table = part.pivot(index=THICKNESS, columns=CLEARANCE, values="largest_stress_over_yield")
+            table, unknown = (
+                part.pivot(index=THICKNESS, columns=CLEARANCE, values=values)
+                for values in ("largest_stress_over_yield", "length_unknown_rad_s")
+            )
             image = axes.imshow(table, origin="lower", aspect="auto", cmap="RdBu_r", vmin=0.0, vmax=2.0)
             for (row, column), value in np.ndenumerate(table.to_numpy()):
                 colour = "white" if abs(value - 1.0) > 0.6 else "black"
                 axes.text(column, row, f"{value:.2f}", ha="center", va="center", color=colour)
+                if unknown.iloc[row, column] > 0.0:
+                    axes.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, fill=False, linewidth=0, hatch="///", alpha=0.4))
             axes.set_yticks(range(len(table.index)), [f"{1e3 * thickness:g}" for thickness in table.index])
             axes.set_xticks(range(len(table.columns)), [f"{1e3 * clearance:.2f}" for clearance in table.columns])
             axes.set_title(f"blade {blade}", loc="left")
             axes.grid(visible=False)
         panels[-1].set_xlabel("clearance (mm)")
         figure.supylabel("thickness of the lining (mm)")
-        figure.colorbar(image, ax=panels, label="largest stress over yield", extend="max")
+        figure.colorbar(image, ax=panels, label="largest stress over yield inside the model", extend="max")
         style.save(figure, file)
 
 
@@ -62,9 +72,10 @@ def verdicts(input: Any, output: Any, params: Any) -> None:
 
 
 def fatigue(input: Any, output: Any, params: Any) -> None:
-    """Largest stress against yield and the Goodman line. Inputs: stress, ranking. Output: table."""
+    """Largest stress against yield and the Goodman line, inside the model. Inputs: stress, ranking. Output: table."""
     stress, row = read_judged(input.stress), read_table(input.ranking).iloc[0]
-    largest = float((stress["max_von_mises_ever"] / stress["yield_stress"]).max())
-    cells = [row["blade"], f"{largest:.2f}", f"{row['largest_goodman_share']:.2f}", f"{row['length_goodman_rad_s']:.0f}"]
-    head = ["blade", "largest stress / yield", "largest Goodman share", "length above the line (rad/s)"]
+    share, danger = float(stress["goodman_share_inside"].max()), stress["goodman_danger"]
+    speeds = (str(int((danger == each).sum())) for each in (Danger.DANGEROUS, Danger.UNKNOWN))
+    cells = [row["blade"], f"{row['largest_stress_over_yield']:.2f}", f"{share:.2f}", *speeds]
+    head = ["blade", "largest stress / yield", "largest Goodman share", "speeds above the line", "unknown speeds"]
     write_table(head, [cells], output.table)

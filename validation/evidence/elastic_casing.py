@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.contact.elastic_casing import ENOUGH, ElasticCasing, nodal_diameters_for, slowest_wave
-from r37core.results.danger import ratio_to_yield
+from r37core.results.events import Danger
 from r37core.results.regions import read_judged
 from r37core.time_integration.status import RunStatus
 
@@ -42,7 +42,7 @@ def rings(input: Any, output: Any, params: Any) -> None:
 
 
 def effect(input: Any, output: Any, params: Any) -> None:
-    """Table of the speeds above yield, and of the runs that diverge, by blade, contact and casing. Input: responses."""
+    """Table of dangerous and unknown speeds, and of runs that diverge, by blade, contact and casing. Input: responses."""
     cells: dict[tuple[str, str], dict[str, str]] = {}
     for response in map(read_judged, input.responses):
         contact, casing = response.attrs["scene"].split("_")
@@ -53,11 +53,8 @@ def effect(input: Any, output: Any, params: Any) -> None:
 
 
 def _cell(response: xr.Dataset, speeds: list[float]) -> str:
-    """Speeds above yield in most later revolutions, median of the stress over yield, and how many further runs diverge."""
+    """Numbers of dangerous and of unknown speeds, and how many runs diverge."""
     at_speeds = response.sel(speed=speeds)
-    ratio = ratio_to_yield(at_speeds, "max_von_mises_median")
+    dangerous, unknown = (int((at_speeds["yield_danger"] == each).sum()) for each in (Danger.DANGEROUS, Danger.UNKNOWN))
     diverged = int((at_speeds["status"] == RunStatus.DIVERGED).sum())
-    cell = f"{int((ratio > 1.0).sum())} of {len(speeds)}"
-    if np.isfinite(ratio.median()):
-        cell += f", {float(ratio.median()):.2f}"
-    return cell + (f" ({diverged} diverge)" if diverged else "")
+    return f"{dangerous} / {unknown} of {len(speeds)}" + (f" ({diverged} diverge)" if diverged else "")

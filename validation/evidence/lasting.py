@@ -6,11 +6,10 @@ import numpy as np
 
 from r37core.figures.style import PAGE, plt, save
 from r37core.results.measures import motion
-from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
 from r37core.time_integration.settling import MotionAtEnd
 
-from .tables import write_table
+from .tables import danger_cell, write_table
 
 STATES = (MotionAtEnd.LASTING, MotionAtEnd.GROWING, MotionAtEnd.CUT_FREE, MotionAtEnd.QUIET)
 
@@ -20,12 +19,13 @@ def lasting(input: Any, output: Any, params: Any) -> None:
     rows, (figure, axes) = [], plt.subplots(figsize=(PAGE, 2.8))
     for file, revolutions, marker in zip(input.runs, params.revolutions, "oxv", strict=True):
         response = read_judged(file)
-        length = robustness(response, chance_scatter=False)["length_most_revolutions_rad_s"]
         counts = [np.count_nonzero(response["motion_at_end"] == state) for state in STATES]
-        rows.append([revolutions, f"{length:.0f}", *map(str, counts)])
+        rows.append([revolutions, danger_cell(response), *map(str, counts)])
         axes.plot(response["speed"], 1e3 * motion(response), f"{marker}-", markersize=3, label=revolutions)
     states = [state.text.replace("_", " ") for state in STATES]
-    write_table(["revolutions", "above yield (rad/s)", *(f"{state}: runs" for state in states)], rows, output.table)
+    write_table(
+        ["revolutions", "dangerous / unknown / sustained (rad/s)", *(f"{state}: runs" for state in states)], rows, output.table
+    )
     axes.set_xlabel("speed (rad/s)")
     axes.set_ylabel("rms of the leading edge (mm)")
     axes.legend(title="revolutions")

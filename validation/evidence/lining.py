@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 
 from r37core.figures.style import plt, save
+from r37core.results.events import Danger, exit_of, yield_events
 from r37core.rom.reduction_choice import EVEN
-from r37core.stress.statistic import stress_statistic
 
 from .accuracy import SHARES, percent
 from .blade_runs import Models, mesh_of, numbers_of_run, reduced_model, speeds_about_crossing, with_friction
@@ -24,7 +24,7 @@ CONTACT_LENGTHS = (0.5e-4, 1.585e-4, 5e-4, 1e-3)
 """(m) From a third of the published model's to a tip's thickness."""
 
 FIRST, LAST, STEP = 750.0, 2000.0, 25.0
-"""Speeds (rad/s) of the length above yield."""
+"""Speeds (rad/s) of the lengths."""
 
 
 def limits(input: Any, output: Any, params: Any) -> None:
@@ -80,19 +80,20 @@ def changes(varied: list[Any], base: list[Any]) -> str:
 
 
 def contact_lengths_of_blade(input: Any, output: Any, params: Any) -> None:
-    """Length above yield of a blade at each of CONTACT_LENGTHS. Params: configuration, blade."""
+    """Dangerous and unknown lengths of a blade at each of CONTACT_LENGTHS. Params: configuration, blade. Output: lengths."""
     settings = settings_of(Path.cwd(), **params.configuration, fidelity=LEVEL)
     scene, limit = settings.scenes[SCENE].scene, settings.blades[params.blade].material.yield_stress
     models = Models.of(reduced_model(mesh_of(settings, params.blade), settings, params.blade), settings, params.blade)
-    row: dict[str, float | str] = {"blade": params.blade}
+    rows = []
     for length in CONTACT_LENGTHS:
-        other, above = replace(scene, lining=replace(scene.lining, contact_length=length)), 0
+        other = replace(scene, lining=replace(scene.lining, contact_length=length))
+        dangers: list[int] = []
         for speed in np.arange(FIRST, LAST + 1.0, STEP):
             run = numbers_of_run(models, float(speed), other, settings.integration_choice(params.blade, SCENE))
-            share = stress_statistic(run["revolution_von_mises"][0], limit)["share_of_revolutions_above_yield"]
-            above += int(bool(run["status"]) or share > 0.5)
-        row[f"{1e3 * length:.3g}"] = STEP * above
-    pd.DataFrame([row]).to_csv(output.lengths, index=False)
+            dangers.append(int(yield_events(run, limit, exit_of(run)["exit_revolution"])["yield_danger"][0]))
+        dangerous, unknown = (STEP * dangers.count(danger) for danger in (Danger.DANGEROUS, Danger.UNKNOWN))
+        rows.append({"blade": params.blade, "mm": 1e3 * length, "dangerous": dangerous, "unknown": unknown})
+    pd.DataFrame(rows).to_csv(output.lengths, index=False)
 
 
 def spread(heights: Mapping[str, float], least: float) -> dict[str, float]:
@@ -105,15 +106,20 @@ def spread(heights: Mapping[str, float], least: float) -> dict[str, float]:
 
 def contact_lengths(input: Any, output: Any, params: Any) -> None:
     """Lengths of all blades at each contact length, and their picture. Input: files of contact_lengths_of_blade."""
-    table = pd.concat([pd.read_csv(file) for file in input.files]).set_index("blade")
-    rows = [[blade, *(f"{table.loc[blade, name]:.0f}" for name in table)] for blade in table.index]
-    write_table(["blade", *(f"{name} mm" for name in table)], rows, output.table)
-    figure, axes = plt.subplots(figsize=(5.2, 3.2))
-    heights = spread(table.iloc[:, -1].to_dict(), 0.075 * float(table.to_numpy().max()))
-    for blade in table.index:
-        (line,) = axes.semilogx(table.columns.astype(float), table.loc[blade], "o-", markersize=4)
-        axes.annotate(str(blade), (1.1, heights[blade]), color=line.get_color(), va="center", annotation_clip=False, fontsize=9)
-    axes.set(xlabel="contact length (mm)", ylabel="speeds above yield (rad/s)")
-    axes.set_xticks(table.columns.astype(float), list(table.columns))
-    axes.minorticks_off()
+    table = pd.concat([pd.read_csv(file) for file in input.files])
+    table["cell"] = [f"{row.dangerous:.0f} / {row.unknown:.0f}" for row in table.itertuples()]
+    cells = table.pivot(index="blade", columns="mm", values="cell").loc[table["blade"].unique()]
+    rows = [[str(blade), *row] for blade, row in zip(cells.index, cells.values.tolist(), strict=True)]
+    write_table(["blade", *(f"{length:.3g} mm" for length in cells)], rows, output.table)
+    figure, panels = plt.subplots(1, 2, figsize=(6.4, 3.2), sharex=True, layout="constrained")
+    for axes, kind in zip(panels, ("dangerous", "unknown"), strict=True):
+        lengths = table.pivot(index="mm", columns="blade", values=kind)
+        heights = spread(lengths.iloc[-1].to_dict(), 0.075 * float(max(lengths.to_numpy().max(), STEP)))
+        for blade in cells.index:
+            (line,) = axes.semilogx(lengths.index, lengths[blade], "o-", markersize=4)
+            place = (1.1 * lengths.index[-1], heights[blade])
+            axes.annotate(str(blade), place, color=line.get_color(), va="center", annotation_clip=False, fontsize=9)
+        axes.set(xlabel="contact length (mm)", ylabel=f"{kind} speeds (rad/s)")
+        axes.set_xticks(lengths.index, [f"{length:.3g}" for length in lengths.index])
+        axes.minorticks_off()
     save(figure, output.picture)

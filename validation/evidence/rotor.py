@@ -1,20 +1,18 @@
-"""Rotors against a single blade: speeds above yield in most revolutions and ever, and how many blades are at once."""
+"""Rotors against a single blade: dangerous, unknown and sustained speeds, and how many blades are above yield at once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
-
-import numpy as np
-from matplotlib.axes import Axes
 
 from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
+from r37core.figures.danger_rows import LEGEND, draw_danger_rows
 from r37core.figures.style import plt
 from r37core.results.danger import danger_of, ranges_of
-from r37core.results.exceedance import SpeedRange, length_of
+from r37core.results.exceedance import SpeedRange
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
 
-from .tables import write_table
+from .tables import danger_cell, write_table
 
 BLADES = ("Ref", "CS100")
 """Blades of the rotors: without sweep, and with most speeds above yield on a lining."""
@@ -34,14 +32,13 @@ AVOIDED = (-8.0, 6.0)
 """Range about 1B/4, in percent of its speed, that is run and that the page advises to avoid."""
 
 COLUMNS = (
-    *("blade", "rotor", "above yield in most revolutions (rad/s)", "ranges (rad/s)", "from 1B/4 (%)"),
-    *("ever above yield (rad/s)", "ever: from 1B/4 (%)"),
-    *("largest stress / yield", "blades at once in most revolutions"),
+    *("blade", "rotor", "dangerous / unknown / sustained (rad/s)", "dangerous: from 1B/4 (%)", "unknown: from 1B/4 (%)"),
+    *("sustained: from 1B/4 (%)", "largest stress / yield", "blades at once in most revolutions"),
 )
 
 
 def kinds(input: Any, output: Any, params: Any) -> None:
-    """Speeds above yield of a single blade and of rotors of it. Outputs: table, picture.
+    """Speeds of a single blade and of rotors of it that are not below yield inside the model. Outputs: table, picture.
 
     Inputs: responses of BLADES by scene, of a rotor with the stress of any blade; campbell; rotors (csv).
     """
@@ -52,19 +49,16 @@ def kinds(input: Any, output: Any, params: Any) -> None:
         drawn, crossing = {}, float(crossings.sel(blade=blade))
         for kind, words in KINDS.items():
             judged = read_judged(input[kind][place])
-            ever, _, most = ranges_of(judged).values()
-            drawn[words] = {"ever above yield": ever, "in most revolutions": most}
-            blades = at_once.get((blade, kind), int(bool(most)))
-            where = ", ".join(f"{part.begin:.0f} to {part.end:.0f}" for part in most) or "-"
-            row = [blade, words, f"{length_of(most):.0f}", where, _distance(most, crossing)]
-            row += [f"{length_of(ever):.0f}", _distance(ever, crossing)]
+            drawn[words], ranges = judged, list(ranges_of(judged).values())
+            blades = at_once.get((blade, kind), int(bool(ranges[-1])))
+            row = [blade, words, danger_cell(judged), *(_distance(parts, crossing) for parts in ranges)]
             rows.append([*row, f"{danger_of(judged)['largest_stress_over_yield']:.2f}", str(blades)])
-        _bars(axes, drawn, crossing)
-        axes.axvline(0.0, color="0.3", linestyle="--", linewidth=0.9, label="1B/4 of one blade")
+        draw_danger_rows(axes, drawn, ["#D55E00"] * len(drawn), lambda _, speed, at=crossing: _percent(speed, at))
+        axes.axvline(0.0, color="0.3", linestyle="--", linewidth=0.9)
         axes.set_xlim(AVOIDED)
         axes.set_title(f"{blade}, 1B/4 at {crossing:.0f} rad/s", loc="left", fontweight="bold")
-    panels[-1].set_xlabel("speed, from 1B/4 (%)")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    panels[-1].set_xlabel("speed, from 1B/4 of one blade (%)")
+    figure.legend(LEGEND.values(), LEGEND, loc="outside upper center")
     style.save(figure, output.picture)
     write_table(list(COLUMNS), rows, output.table)
 
@@ -77,14 +71,3 @@ def _distance(ranges: Sequence[SpeedRange], crossing: float) -> str:
 
 def _percent(speed: float, crossing: float) -> float:
     return 100.0 * (speed / crossing - 1.0)
-
-
-def _bars(axes: Axes, drawn: Mapping[str, Mapping[str, Sequence[SpeedRange]]], crossing: float) -> None:
-    """Ranges by kind of rotor, in percent from a `crossing`, a line for each, those in most revolutions on those ever."""
-    for place, ranges in enumerate(drawn.values()):
-        for (label, parts), colour in zip(ranges.items(), ("#F2C6A7", "#D55E00"), strict=True):
-            # a thin edge, so that what is narrower than a dot is seen
-            bars = [(_percent(part.begin, crossing), 100.0 * part.length / crossing) for part in parts]
-            axes.broken_barh(bars, (place - 0.3, 0.6), color=colour, linewidth=0.5, label=label if place == 0 else "")
-    axes.set(yticks=np.arange(len(drawn)), yticklabels=list(drawn), ylim=(len(drawn) - 0.5, -0.5))
-    axes.grid(visible=False, axis="y")

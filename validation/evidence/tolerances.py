@@ -7,27 +7,28 @@ import xarray as xr
 
 from r37core.base.dataset_file import read_dataset
 from r37core.base.rounding import rounded_to
-from r37core.results.columns import MOST_REVOLUTIONS
-from r37core.results.exceedance import exceedance_of
+from r37core.results.danger import danger_ranges
 from r37core.results.table_file import read_table
 
 from .tables import write_table
 
 COLUMNS = {
     "peak (rad/s)": ("peak_speed_rad_s", 1.0, 0),
-    "above yield in most revolutions (rad/s)": ("length_most_revolutions_rad_s", 1.0, 0),
+    "dangerous (rad/s)": ("length_dangerous_rad_s", 1.0, 0),
+    "unknown (rad/s)": ("length_unknown_rad_s", 1.0, 0),
+    "sustained (rad/s)": ("length_most_revolutions_rad_s", 1.0, 0),
     "largest stress (GPa)": ("largest_stress_pa", 1e-9, 1),
 }
 """Column of the table, and that of tolerances.csv with its factor and digits."""
 
-FARTHEST = "farthest above yield, from the crossing (%)"
-"""Column of the highest speed at which any member is above yield in most revolutions."""
+FARTHEST = "farthest dangerous or unknown, from the crossing (%)"
+"""Column of the highest speed at which any member is not below yield inside the model."""
 
 UNKNOWN = "-"
 
 
 def ranges(input: Any, output: Any, params: Any) -> None:
-    """Nominal value and range of an interaction of each blade, and how far a member is above yield in most revolutions.
+    """Nominal value and range of an interaction of each blade, and how far from the crossing a member is dangerous or unknown.
 
     Inputs: table, members, campbell. Params: mode, order. Output: table.
     """
@@ -46,9 +47,9 @@ def ranges(input: Any, output: Any, params: Any) -> None:
 
 
 def farthest(members: xr.Dataset, crossing: Any) -> str:
-    """Highest speed at which any member is above yield in most revolutions, in percent from a `crossing` (rad/s)."""
+    """Highest speed at which any member is dangerous or unknown, in percent from a `crossing` (rad/s)."""
     runs = (members.sel(member=member) for member in members["member"])
-    ends = [part.end for run in runs for part in exceedance_of(run).ranges(MOST_REVOLUTIONS)]
+    ends = [part.end for run in runs for ranges in danger_ranges(run) for part in ranges]
     return f"{100.0 * (max(ends) / float(crossing) - 1.0):+.1f}" if ends else UNKNOWN
 
 
