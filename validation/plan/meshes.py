@@ -1,4 +1,4 @@
-"""Density of the mesh, and meshes of another program (docs/structure.md, docs/your_blade.md)."""
+"""Density of the mesh (docs/structure.md)."""
 
 from evidence.plan import Item, table
 
@@ -8,5 +8,4 @@ SOURCES = ["config/blades.yaml", "config/config.yaml", "config/fidelity.yaml", "
 EVIDENCE = [
     # the model of the finest mesh takes 3 GB
     Item("evidence.meshes.density", {"table": table("mesh_density")}, sources=SOURCES, memory_mb=3600),
-    Item("evidence.meshes.remeshed", {"table": table("remeshed")}, params={"blades": ["Ref"]}, sources=SOURCES),
 ]
