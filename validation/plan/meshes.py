@@ -7,5 +7,5 @@ SOURCES = ["config/blades.yaml", "config/config.yaml", "config/fidelity.yaml", "
 
 EVIDENCE = [
     # the model of the finest mesh takes 3 GB
-    Item("evidence.meshes.density", {"table": table("mesh_density")}, sources=SOURCES, memory_mb=3600),
+    Item("evidence.meshes.density", {"table": table("mesh_density")}, sources=SOURCES, memory_mb=3600)
 ]
