@@ -227,12 +227,26 @@ def test_large_changes_are_tried_where_runs_fail_or_nearly_do(asked):
     """All speeds that fail, or the worst where that still fails; else the nearest to the limit; nothing else of what fails."""
     found = asked(nearness=lambda speeds: 1.0 - 1e-3 * (speeds - 1305.5))
     assert found == {name: [1302.0] for name in LARGE_CHANGES if name != SLOWEST_RISE}
-    # the first that still fails ends it
-    found = asked(nearness=lambda speeds: 1.0 - 1e-3 * (speeds - 1308.5) - (speeds < 1304.0) * (len(speeds) == 1))
-    assert found[FAST_RISE] == [1302.0, 1305.0]
+    # the first that still fails ends it, of what fails clearly
+    numbers = {"nearness": lambda speeds: 1.0 - 1e-3 * (speeds - 1308.5) - (speeds < 1304.0) * (len(speeds) == 1)}
+    for clearly in (True, False):
+        found = asked(**numbers, fails_clearly=lambda _, clearly=clearly: clearly)
+        assert (found[FAST_RISE] == [1302.0, 1305.0]) == clearly
     # of what fails the slowest rise is not tried
     found = asked(evidence(), nearness=lambda speeds: (1.0 - 1e-3 * (speeds - 1302.5)) * (len(speeds) > 1))
     assert all(found[name] == [1300.0, 1302.5] for name in LARGE_CHANGES if name in found)
+
+
+def test_the_worst_speeds_of_each_limit_are_tried(lined):
+    """Of two limits the farther one has its own worst speed among those that are run in other ways."""
+    speeds = np.arange(1300.0, 1310.1, 1.0)
+    numbers = {"goodman_share_inside": 0.9 - 0.01 * (speeds - 1300.0), "used_thickness": 1e-5 * (speeds - 1299.0)}
+    runs = evidence(speeds=speeds).response.assign({name: ("speed", values) for name, values in numbers.items()})
+    both = Requirements(used_lining=0.5, goodman_share=1.0)
+    nearest = further_runs._nearest(both, evidence().replaced(runs), further_runs.judging.nearness, 8)
+    assert nearest == [*speeds[:8], *speeds[-1:-4:-1]]
+    # the eight that are nearest to any limit, and the six of the lining of which three are among them
+    assert further_runs._nearest(NEEDS, evidence().replaced(runs), further_runs.judging.nearness, 8) == [*speeds[:2:-1]]
 
 
 def test_half_the_friction_is_tried_of_the_run_that_diverged_soonest(lined):
@@ -299,8 +313,9 @@ KNOWN = np.concatenate([1100.0 + 10.0 * count + np.array([-0.1, 0.0, 0.1]) for c
     ("speeds", "near", "expected"),
     [
         (SPEEDS, [0.1, 0.8, 0.2, 0.6], [1001.25, 1003.75]),
-        # what fails and what lies far below are no peaks, nor is there anything between speeds that stand close
-        (SPEEDS, [0.1, 1.2, 0.2, 0.3], []),
+        (SPEEDS, [0.1, 1.2, 0.2, 0.3], [1001.25, 1003.75]),
+        # what diverges and what lies far below are no peaks, nor is there anything between speeds that stand close
+        (SPEEDS, [0.1, np.inf, 0.2, 0.3], []),
         ([1000.0, 1000.1], [0.9, 0.1], []),
         # a peak between two like speeds, and a top that is known to 3%
         (SPEEDS, NEAR, [1003.75, 1006.25]),
@@ -309,7 +324,7 @@ KNOWN = np.concatenate([1100.0 + 10.0 * count + np.array([-0.1, 0.0, 0.1]) for c
         (np.append(SPEEDS, KNOWN), np.append(NEAR, np.tile([0.3, 0.9, 0.3], 12)), [1003.75, 1006.25]),
     ],
 )
-def test_runs_stand_closer_about_a_peak_below_the_limit(speeds, near, expected):
+def test_runs_stand_closer_about_a_peak(speeds, near, expected):
     refined = further_runs._speeds_about_peaks(np.array(speeds), np.array(near), 0.03)
     assert [speed for speed in refined if speed < 1010.0] == expected
 

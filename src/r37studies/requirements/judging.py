@@ -96,7 +96,8 @@ COLUMNS = (
 """Columns of verdict.csv after blade and scene.
 
 `value` and `limit` are in the `unit`; the value is NaN where it is not known, for the reason in `note`. `value_lowest`,
-`value_highest`: of everything that was tried, with the error of mesh and step, two standard deviations and unknown speeds.
+`value_highest`: of everything that was tried, each with the error of mesh and step, two standard deviations, unknown speeds and
+what fewer speeds than those from rest miss.
 `margin`: distance from the limit, below 0 where the requirement is broken. `from_rad_s`, `to_rad_s`: speeds where it is worst.
 `scatter`: standard deviation of the value by friction, step and mesh, of a length also by distance of the speeds; `members`,
 `share_of_members`: number of members under tolerances, and the share of them that meets it; `margin_worst_motion`: margin of
@@ -106,8 +107,8 @@ the worst of all motions; NaN each where not run. `further_runs`: how many there
 
 def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, Any]]:
     """Each requirement in turn: COLUMNS."""
-    for name, unit, limit, columns_of in _required(requirements, _OF_RUNS):
-        only = Requirements(**{name: getattr(requirements, name)})
+    rows = zip(_required(requirements, _OF_RUNS), single_limits(requirements), strict=True)
+    for (name, unit, limit, columns_of), only in rows:
         yield _judged_by_runs(name, unit, limit, columns_of, only, evidence)
     for name, unit, limit, columns_of in _required(requirements, _OF_BLADE):
         yield _row(name, unit, limit, columns_of(evidence), is_lower_limit=name == "clearance")
@@ -124,6 +125,11 @@ def fails_clearly(requirements: Requirements, evidence: Evidence) -> list[str]:
     smaller = operated_alone(evidence).scaled(1.0 / CLEARLY)
     required = _required(requirements, _OF_RUNS)
     return [name for name, _, limit, columns_of in required if _number(columns_of(smaller)) > limit]
+
+
+def single_limits(requirements: Requirements) -> list[Requirements]:
+    """Each of the requirements on runs alone."""
+    return [Requirements(**{name: getattr(requirements, name)}) for name, *_ in _required(requirements, _OF_RUNS)]
 
 
 def nearness(requirements: Requirements, evidence: Evidence) -> np.ndarray:
@@ -199,31 +205,29 @@ def _judged_by_runs(
     scaled = {more: 1.0 + error, less: 1.0 / (1.0 + error)} if error else {}
     trials = _trials(evidence)
     with_error = [Trial(f"with {name}", evidence.scaled(scale), has_error=True) for name, scale in scaled.items()]
-    table = [
-        replace(
-            trial,
-            value=_number(columns_of(trial.evidence)),
-            raised=np.nan if trial.has_error else _number(columns_of(trial.evidence.scaled(1.0 + error))),
-        )
-        for trial in (*trials, *with_error)
-    ]
+    is_length = requirement == "above_yield"
+    # wherever its borders lie, a speed above yield is one
+    is_sure = is_length and is_lined(evidence.response)
+    table, ends = [], list[float]()
+    for trial in (*trials, *with_error):
+        scale = 1.0 if trial.has_error else 1.0 + error
+        # what a length misses between speeds is its scatter
+        missed = 1.0 if is_length else _missed(only, evidence, trial.evidence.speeds)
+        own, raised, between = (columns_of(trial.evidence.scaled(factor)) for factor in (1.0, scale, missed * scale))
+        table.append(replace(trial, value=_number(own), raised=np.nan if trial.has_error else _number(raised)))
+        ends += [*_ends(own, is_sure=is_sure), *_ends(between, is_sure=is_sure)]
 
     repeated = [trial.value for trial in table if trial.repeats]
     if repeated or not np.isnan(row["scatter"]):
         deviation = np.nanstd([row["value"], *filter(np.isfinite, repeated)])
         row["scatter"] = float(np.linalg.norm(np.nan_to_num([row["scatter"], deviation])))
-    reach_of_chance = DEVIATIONS * np.nan_to_num(row["scatter"])
-    lowest, highest = row["value"] - reach_of_chance, row["value"] + reach_of_chance
-    is_length = requirement == "above_yield"
-    if is_length and is_lined(evidence.response) and row["value"] > 0.0:
-        # wherever its borders lie, a speed above yield is one
-        lowest = max(lowest, 1e-9)
+    lowest, highest = _ends(row | {"unknown": 0.0}, is_sure=is_sure)
     if row["scatter"] > 0.0:
         name, end = (MORE_SCATTER, highest) if row["verdict"] == MEETS else (LESS_SCATTER, lowest)
         table.append(Trial(name, evidence, value=end))
     # what leaves the model may be above yield
     highest += columns.get("unknown", 0.0)
-    finite = [value for trial in table for value in (trial.value, trial.raised) if np.isfinite(value)]
+    finite = [end for end in ends if np.isfinite(end)]
     operating = evidence.operating
     width = operating.last - operating.first
     most = width if is_length else np.inf
@@ -268,6 +272,23 @@ def _judged_by_runs(
     elif row["verdict"] == MEETS and not evidence.touches:
         row["note"] = NO_CONTACT
     return row
+
+
+def _ends(columns: Columns, *, is_sure: bool) -> list[float]:
+    """Ends of a value: two standard deviations off, with what is unknown; NaN where it is not known.
+
+    `is_sure`: whether chance takes no value above 0 to 0.
+    """
+    value, chance = columns.get("value", np.nan), DEVIATIONS * np.nan_to_num(columns.get("scatter", 0.0))
+    return [max(value - chance, 1e-9 * (is_sure and value > 0.0)), value + chance + columns.get("unknown", 0.0)]
+
+
+def _missed(only: Requirements, evidence: Evidence, speeds: np.ndarray) -> float:
+    """Factor by which the largest value of the runs exceeds that at other `speeds` (rad/s), which miss peaks between them."""
+    near = np.where(evidence.operates, nearness(only, evidence), 0.0)
+    at_speeds = np.interp(speeds, evidence.response["speed"].values, near).max(initial=0.0)
+    largest = near.max()
+    return float(largest / at_speeds) if np.isfinite(largest) and at_speeds > 0.0 else 1.0
 
 
 def growing(requirements: Requirements, evidence: Evidence) -> np.ndarray:

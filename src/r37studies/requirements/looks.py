@@ -212,7 +212,7 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
         for look, ends in ((judging.RUN_UP, (first, last)), (judging.RUN_DOWN, (last, first))):
             yield f"{look} at {rate:.3g} rad/s2", blade.run_up(*ends, revolutions, carried)
     close = judging.closeness(requirements, rest)
-    near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[: _speeds_near(close)]]).tolist()
+    near = sorted(_nearest(requirements, rest, judging.closeness, _speeds_near(close)))
     for look, factor in _FRICTION.items():
         if scene := blade.rising_scene.scaled_friction(factor):
             yield look, follow(partial(rest_runs, scene=scene), near)
@@ -248,15 +248,15 @@ def _followed(
 def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
     """LARGE_CHANGES, at the speeds in operation where `runs` fail and up to MOST_NEAR in all, those nearest to a limit.
 
-    Of what fails a change ends at the first speed that still does, but for a limit of a length. HALF_FRICTION where a run
-    diverged.
+    Of what fails clearly a change ends at the first speed that still does, but for a limit of a length. HALF_FRICTION where a
+    run diverged.
     """
     soonest = soonest_divergence(runs)["speed"].values.tolist()
     if soonest and (less := blade.rising_scene.scaled_friction(0.5)):
         yield HALF_FRICTION, blade.runs_from_rest(soonest, less)
     near, scene = judging.nearness(requirements, runs)[runs.operates], blade.rising_scene
     count = max(_speeds_near(near), int(np.count_nonzero(near >= 1.0)))
-    speeds = runs.response["speed"].values[runs.operates][np.argsort(-near, kind="stable")[:count]].tolist()
+    speeds = _nearest(requirements, runs, judging.nearness, count)
     changes = {judging.LOWEST_DAMPING: scene.damped("lowest"), judging.HIGHEST_DAMPING: scene.damped("highest")}
     fast = 0.1 * (scene.casing.rise_revolutions or 0.0)
     rises = {
@@ -274,10 +274,27 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
         if changed != scene and speeds:
             run = partial(JudgedBlade.runs_from_rest, scene=changed)
             tried = speeds
-            if near.max() >= 1.0 and not requirements.above_yield:
+            if near.max() >= 1.0 and not requirements.above_yield and judging.fails_clearly(requirements, runs):
                 alone = (judging.nearness(requirements, runs.replaced(run(blade, [speed]))).max() for speed in speeds)
                 tried = next((speeds[:count] for count, nearest in enumerate(alone, 1) if nearest >= 1.0), speeds)
             yield look, _followed(blade, requirements, runs, run, tried)
+
+
+def _nearest(
+    requirements: Requirements, runs: Evidence, measure: Callable[[Requirements, Evidence], np.ndarray], count: int
+) -> list[float]:
+    """Speeds (rad/s) in operation of so many runs that a `measure` says are nearest to a limit, the nearest first.
+
+    With them stand the _LEAST_NEAR of each limit: what is nearest to one limit need not be worst for another.
+    """
+    speeds, chosen = runs.response["speed"].values[runs.operates], dict[float, None]()
+    for limits, most in (
+        (requirements, count),
+        *((only, min(count, _LEAST_NEAR)) for only in judging.single_limits(requirements)),
+    ):
+        order = np.argsort(-measure(limits, runs)[runs.operates], kind="stable")
+        chosen |= dict.fromkeys(speeds[order[:most]].tolist())
+    return [*chosen]
 
 
 def _speeds_near(near: np.ndarray) -> int:
@@ -314,7 +331,7 @@ def _speeds_about_peaks(speeds: np.ndarray, near: np.ndarray, error: float) -> l
     """Middles of the intervals beside peaks from NEAR of a limit on that may be higher than known by more than an `error`."""
     reach, is_wide = peak_reach(speeds, near), np.diff(speeds) > LEAST_STEP
     can_be_closer = np.append(is_wide, False) | np.append(False, is_wide)
-    peaks = np.flatnonzero((reach >= NEAR) & (near < 1.0) & (reach > (1.0 + error) * near) & can_be_closer)
+    peaks = np.flatnonzero((reach >= NEAR) & np.isfinite(near) & (reach > (1.0 + error) * near) & can_be_closer)
     highest = peaks[np.argsort(-near[peaks], kind="stable")[:_MOST_PEAKS]]
     beside = np.unique([*(highest - 1), *highest]).astype(int)
     wide = beside[is_wide[beside]]
