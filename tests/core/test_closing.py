@@ -111,7 +111,7 @@ def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
     assert z.startswith("z: D0, D1, D2, D3 and 8 more cannot be ranked (dangerous over 0 rad/s); ")
 
 
-def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
+def test_the_ranking_over_scenes_on_points(tmp_path):
     """A sum of several ranges is told apart from the widest of them."""
     head = "blade,scene,rank_lowest,rank_highest,contact,rank_over_scenes,length_unknown_rad_s,length_dangerous_rad_s,"
     head += "ranges_dangerous,widest_range_from_rad_s,widest_range_rad_s\n"
@@ -125,13 +125,6 @@ def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     assert "S100 is at the most (854 rad/s in 4 ranges" in bare
     assert over.endswith(", by the longest length in any (rad/s): Ref 129 = A 130, S100 854 (=: cannot be told apart)")
     assert contact == ("the ranking is of contact on points; a decision needs structure: { boundary: { contact: patches } }")
-    patches = 'Mine,x,1,1,"patches, {0}",1,0,5,1,900,5\nMine,y,1,1,"patches, {0}",1,0,5,1,900,5\n'
-    (tmp_path / "ranking.csv").write_text(head + points + patches.format("linear"))
-    contact = last_lines(tmp_path, *ROWS)[-3]
-    among = "(8 points, linear: S100, A, Ref; patches, linear: Mine)"
-    assert contact.startswith(f"ranks are among blades of the same contact {among}; structure: {{ boundary: {{")
-    (tmp_path / "ranking.csv").write_text(head + points + patches.format("quadratic"))
-    assert "structure: { kinematics: quadratic, boundary: {" in last_lines(tmp_path, *ROWS)[-3]
 
 
 def test_runs_that_diverged_are_counted(tmp_path):

@@ -295,7 +295,7 @@ def test_blades_of_any_size_take_one_program(integrator):
         if integrator == EXACT_MODAL:
             model = with_static_modes(model, 1e-9)
         simulation = Simulation(model, 12_000.0, DIRECT, choice)
-        programs.append(simulation.engine._advance)
+        programs.append(simulation.engine.program)
         sizes.append(len(simulation.problem.blade.frequencies))
         state = simulation.start()
         state.displacement[:] = 1e-7

@@ -109,8 +109,8 @@ def test_any_number_of_nodes(nodes, name, integrator):
 def test_a_run_in_many_calls_is_the_run_in_one(contact, scene, monkeypatch):
     choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=3)
     simulation, whole, record = whole_run(contact, 1000.0, scene, choice)
-    calls, call, state = [], simulation.engine.call, simulation.start()
-    monkeypatch.setattr(simulation.engine, "call", lambda *arguments: calls.append(1) or call(*arguments))
+    calls, call, state = [], simulation.engine.program, simulation.start()
+    monkeypatch.setattr(simulation.engine, "program", lambda *arguments: calls.append(1) or call(*arguments))
     monkeypatch.setattr(integration_choice, "STEPS_AT_ONCE", 1)
     # also from a sample inside of a revolution
     parts = [simulation.advance_samples(state, count) for count in (20, 4 * 62 - 20)]
@@ -128,13 +128,13 @@ def test_a_slow_run_can_be_interrupted(contact, monkeypatch):
     state = simulation.start()
     # a test before this one may have run what takes interrupts
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    steps, call = [], simulation.engine.call
+    steps, call = [], simulation.engine.program
 
-    def interrupted(addresses):
-        steps.append(call(addresses) * simulation.engine.problem.grid.steps_per_sample)
+    def interrupted(*arguments):
+        steps.append(call(*arguments) * simulation.engine.problem.grid.steps_per_sample)
         signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(simulation.engine, "call", interrupted)
+    monkeypatch.setattr(simulation.engine, "program", interrupted)
     try:
         with pytest.raises(KeyboardInterrupt):
             simulation.advance(state, 300)

@@ -50,10 +50,3 @@ def address_of(array: np.ndarray, boundary: int = _VECTOR_BYTES) -> int:
     if array.ctypes.data % boundary or not array.flags.c_contiguous:
         raise ValueError(f"an array at {array.ctypes.data:#x}; needed: without gaps, from a multiple of {boundary} bytes on")
     return array.ctypes.data
-
-
-def aligned_copy(array: np.ndarray, length: int) -> np.ndarray:
-    """A copy on a vector's boundary whose last axis is padded with zeros to `length`."""
-    result = aligned_zeros((*array.shape[:-1], length))
-    result[..., : array.shape[-1]] = array
-    return result

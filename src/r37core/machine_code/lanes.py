@@ -282,22 +282,6 @@ def largest_of_lanes(typingctx, value):
     return types.float64(value), lambda context, builder, sig, args: _joined(builder, _larger, args[0])
 
 
-@intrinsic
-def lanes_of(typingctx, vectors, place):
-    """Lanes of so many vectors, an integer of an array in a record that nothing changes while a program runs, at least 1."""
-
-    def build(context, builder, sig, args):
-        data = context.make_array(sig.args[0])(context, builder, args[0]).data
-        number = builder.load(builder.gep(data, [context.cast(builder, args[1], sig.args[1], types.intp)]))
-        # so that loops begin without asking again
-        integer = ir.IntType(64)
-        number.set_metadata("invariant.load", builder.module.add_metadata([]))
-        number.set_metadata("range", builder.module.add_metadata([integer(1), integer(2**31)]))
-        return builder.mul(number, integer(LANES), flags=("nuw", "nsw"))
-
-    return types.int64(vectors, place), build
-
-
 @inlined
 def lanes_used(array, used):
     """Number of lanes of an array that are `used`; of a single vector the compiler knows it."""

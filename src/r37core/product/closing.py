@@ -1,6 +1,6 @@
 """Last lines of a finished run: what was found, where to look, how long it took."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,6 @@ from r37core.results.closing import (
 from r37core.results.columns import LENGTHS, NOT_RESOLVED, names
 from r37core.results.limits import OF_LIMITS
 from r37core.results.table_file import read_table
-from r37core.rom.reduction_choice import QUADRATIC
 from r37core.time_integration.speed_arrays import OF_LINING
 from r37core.time_integration.status import RunStatus
 
@@ -116,7 +115,8 @@ def _ranked(file: Path, began: float) -> Iterator[str]:
     for contact, rows in alike.items():
         among = f"{contact}: " if contact else ""
         yield from (f"{among}{line}" for line in (*_extremes(rows, file), *_over_scenes(rows)))
-    yield from _remarks_on_contact({contact: rows["blade"].unique().tolist() for contact, rows in alike.items()})
+    if any("points" in contact for contact in alike):
+        yield "the ranking is of contact on points; a decision needs structure: { boundary: { contact: patches } }"
     if (gap := table["largest_gap_rad_s"].max()) > 0.0:
         yield f"speeds lie up to {gap:g} rad/s apart: a narrower interaction between them may be missed"
 
@@ -173,18 +173,6 @@ def _over_scenes(rows: pd.DataFrame) -> list[str]:
     equal = " (=: cannot be told apart)" if len(places) < len(shown) else ""
     over = "both" if (scenes := rows["scene"].nunique()) == 2 else f"all {scenes}"
     return [f"over {over} scenes, by the longest length in any (rad/s): {', '.join(places)}{more}{equal}"]
-
-
-def _remarks_on_contact(blades: Mapping[str, list[str]]) -> list[str]:
-    """Line on a ranking of unlike contact, or on points. `blades`: contact -> the blades that have it."""
-    contact = "boundary: { contact: patches }"
-    key = f"structure: {{ {contact} }}"
-    if len(blades) > 1:
-        if any(kind.endswith(QUADRATIC) for kind in blades):
-            key = f"structure: {{ kinematics: {QUADRATIC}, {contact} }}"
-        kinds = "; ".join(f"{contact}: {', '.join(names[:3])}{', ...' * (len(names) > 3)}" for contact, names in blades.items())
-        return [f"ranks are among blades of the same contact ({kinds}); {key} gives one order"]
-    return [f"the ranking is of contact on points; a decision needs {key}" for contact in blades if "points" in contact]
 
 
 def _run_counts(file: Path) -> tuple[str, list[str]]:

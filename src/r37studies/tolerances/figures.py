@@ -85,12 +85,11 @@ def _shares(axes: Axes, members: xr.Dataset) -> None:
 
 
 def _numbers(axes: Axes, tolerances: xr.Dataset) -> None:
-    """Rank coefficient of each number with its interval, and its place in the ranking above; pale: no place known."""
+    """Rank coefficient of each number with its interval; pale: it may have any place in the ranking."""
     numbers = tolerances["number"].values
     width = 0.8 / len(_MEASURES)
-    low, high = (tolerances[f"rank_place_{end}"] for end in ("low", "high"))
-    # a number that may have any place has none
-    known = low.notnull() & (high - low + 1 < tolerances["rank_coefficient"].notnull().sum("number"))
+    places_possible = tolerances["rank_place_high"] - tolerances["rank_place_low"] + 1
+    known = places_possible < tolerances["rank_coefficient"].notnull().sum("number")
     for row, measure in enumerate(_MEASURES):
         places = np.arange(len(numbers)) + (row - 0.5 * (len(_MEASURES) - 1)) * width
         bottom, value, top = (tolerances[f"rank_coefficient{end}"].sel(measure=measure).values for end in ("_low", "", "_high"))
@@ -99,13 +98,8 @@ def _numbers(axes: Axes, tolerances: xr.Dataset) -> None:
         for chosen, alpha in ((clear, 0.7), (~clear, 0.15)):
             ends = np.abs(np.array([bottom, top]) - value)[:, chosen]
             axes.bar(places[chosen], value[chosen], 0.9 * width, yerr=ends, alpha=alpha, **look)
-        for x, height, first, last in zip(
-            places[clear], top[clear], *(of.sel(measure=measure).values[clear] for of in (low, high)), strict=True
-        ):
-            text = f"{first:.0f}" if first == last else f"{first:.0f}-{last:.0f}"
-            axes.annotate(text, (x, max(height, 0.0)), (0, 1), textcoords="offset points", ha="center", fontsize=5)
     axes.set_ylabel("rank coefficient")
-    axes.set_title(f"what each number moves, {CONFIDENCE:.0%} interval; above: place in the ranking, pale: any")
+    axes.set_title(f"what each number moves, {CONFIDENCE:.0%} interval; pale: may have any place in the ranking")
     axes.axhline(0.0, color="0.3", linewidth=0.5)
     axes.set_xticks(np.arange(len(numbers)), [str(number).replace(".", "\n") for number in numbers], fontsize=6)
     # numbers whose indices are not known have their room, too

@@ -61,8 +61,8 @@ EXTENSION = Extension(
             caption="Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, "
             "and the nominal run (dashed). Then the shares of the members that are dangerous (dark, with the interval of the "
             "chance), unknown (hatched) and sustained (line), and a row of the nominal run. Last, by how much each number "
-            "moves three measures, with intervals: rank coefficients. Above the bars stands the place in the ranking; pale "
-            "ones have none.",
+            "moves three measures, with intervals: rank coefficients. Pale: may have any "
+            "place in the ranking.",
         ),
     ),
     closing="r37studies.tolerances.table.closing",

@@ -35,7 +35,7 @@ class CompiledEngine(LaidOutProblem):
 
     def __init__(self, problem: Problem, segments: Segments, beside: Self | None = None):
         super().__init__(problem, segments, beside)
-        self._advance = _program(self.capacity, self.kind)
+        self.program = _program(self.capacity, self.kind)
 
     def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule | None = None) -> int:
         """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
@@ -47,10 +47,6 @@ class CompiledEngine(LaidOutProblem):
         go_on([passage], len(out.samples))
         passage.end()
         return passage.done
-
-    def call(self, addresses: np.ndarray) -> int:
-        """Do what the records at `addresses` ask for: its own, or those of several of one kind; returns the blocks done."""
-        return int(self._advance(addresses.ctypes.data, len(addresses)))
 
 
 class Passage:
@@ -159,7 +155,7 @@ def go_on(passages: Sequence[Passage], blocks: int) -> None:
         part = min(blocks, passages[0].blocks_at_once(len(passages)))
         for passage in passages:
             passage.ask(part)
-        reached = engine.call(addresses)
+        reached = engine.program(addresses.ctypes.data, len(addresses))
         for passage in passages:
             passage.go_on(reached)
         blocks -= reached

@@ -9,7 +9,7 @@ import numpy as np
 from r37core.contact.casing import rise_rate
 from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Friction, Lining
-from r37core.machine_code.alignment import LANES, NUMBER_BYTES, address_of, aligned_copy, aligned_zeros, padded
+from r37core.machine_code.alignment import NUMBER_BYTES, address_of, aligned_zeros, padded
 
 from ..integrators import CENTRAL_DIFFERENCE
 from ..problem import Problem
@@ -130,7 +130,7 @@ class LaidOutProblem:
             number_of_outputs=len(contact.output_operator),
             limit=problem.scene.divergence_limit,
             nodes=self._nodes,
-            vectors=np.array([self.mode_lanes, self.node_lanes]) // LANES,
+            mode_lanes=self.mode_lanes,
             pairs=self._pairs,
             steps_per_revolution=problem.grid.steps_per_revolution,
             steps_per_block=problem.grid.steps_per_sample,
@@ -171,9 +171,10 @@ class LaidOutProblem:
         put(self.record, bar_position=position, bar_surface=casing.bar_surfaces)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
-        force_outputs = problem.contact.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
-        padded_forces = aligned_copy(force_outputs, self.node_lanes).reshape(1, len(force_outputs), -1)
-        put(self.record, flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces)
+        outputs = problem.contact.output_operator
+        by_force = np.zeros((len(outputs), 3, self.node_lanes))
+        by_force[..., : self._nodes] = outputs[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
+        put(self.record, flexibility=problem.contact.contact_flexibility, force_outputs=by_force.reshape(1, len(outputs), -1))
 
     def _lay_out_quadratic(self, quadratic: QuadraticMotion) -> None:
         columns, functionals, (first, second) = self.product_columns, len(quadratic.rows), quadratic.pairs

@@ -48,9 +48,6 @@ MOST_PRODUCTS = len(mode_pairs(MOST_QUADRATIC_MODES)[0])
 MOST_FUNCTIONALS = padded(MOST_QUADRATIC_MODES + MOST_PRODUCTS)
 """Room for the rows of r37core.time_integration.quadratic_motion."""
 
-OF_MODES, OF_NODES = range(2)
-"""Places of the numbers of vectors in the record."""
-
 
 class Capacity(NamedTuple):
     """Room for modes and nodes, in whole vectors: a program is compiled for it and for its kind.
@@ -217,9 +214,8 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("follows", kind=np.int64),
         _fields("worn largest_wear"),  # off the lining by this blade (m3); of all bars (m)
         _fields("limit friction opening"),  # of the clearance in this block (m)
-        # how much of the record is used: vectors of modes and of nodes; numbers
-        _fields("vectors", 2, kind=np.int64),
-        _fields("pairs number_of_outputs nodes", kind=np.int64),
+        # how much of the record is used: lanes of modes; numbers
+        _fields("mode_lanes pairs number_of_outputs nodes", kind=np.int64),
         _fields("follows_sliding", kind=np.int64),  # whether the direction of friction follows the sliding
         # whether there is a lining; whether displacements are of second order, see time_integration.quadratic_motion
         _fields("lined quadratic", kind=np.int64),

@@ -62,15 +62,6 @@ from .steps import (
 
 
 @inlined
-def _begin_segment(addresses, blades, segment):
-    """Let all blades go on at the speed of a segment; returns its blocks of steps."""
-    blocks = 0
-    for b in range(blades):
-        blocks = begin_segment(pointed_at(addresses[b]), segment)
-    return blocks
-
-
-@inlined
 def _begin_part(addresses, blades, place, lobes):
     """Find what follows from the motion at t_n, so that a run that was stopped here goes on with the same bits.
 
@@ -220,7 +211,9 @@ def _integrate(addresses, blades):
     while done < first.call.blocks and within:
         begins = done == until
         if begins:
-            until += _begin_segment(addresses, blades, segment)
+            for b in range(blades):
+                lasting = begin_segment(pointed_at(addresses[b]), segment)
+            until += lasting
         start = first.call.first_step + done * steps_per_block
         remaining = 0.0 if immediate else np.exp(-first.casing.rise * (start + first.call.ahead))
         _begin_block(addresses, blades, first.call.done + done)

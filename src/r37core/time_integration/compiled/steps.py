@@ -19,7 +19,7 @@ from r37core.machine_code.lanes import (
     flag_at,
     flags_of,
     inlined,
-    lanes_of,
+    lanes_used,
     largest_of_lanes,
     load,
     numbers_at,
@@ -29,7 +29,7 @@ from r37core.machine_code.lanes import (
     sums_of_lanes,
 )
 
-from .layout import EXACT_GAP, MERIDIONAL, NORMAL, OF_MODES, OF_NODES, PUBLISHED, TANGENTIAL
+from .layout import EXACT_GAP, MERIDIONAL, NORMAL, PUBLISHED, TANGENTIAL
 
 _friction_direction = inlined(friction_direction)
 _return_mapping = inlined(return_mapping)
@@ -44,13 +44,13 @@ _line_of_wear = inlined(line_of_wear)
 @inlined
 def mode_lanes(m):
     """Number of lanes that the modes fill."""
-    return lanes_of(m.vectors, OF_MODES)
+    return m.mode_lanes
 
 
 @inlined
 def node_lanes(m):
     """Number of lanes that the nodes fill; of a single vector the compiler knows it."""
-    return LANES if len(m.force) == LANES else lanes_of(m.vectors, OF_NODES)
+    return lanes_used(m.contact.gap, m.contact.lanes)
 
 
 @inlined
