@@ -80,10 +80,6 @@ def compared_in(table: pd.DataFrame) -> dict[str, Compared]:
     return families
 
 
-_TIE_BREAKERS = {"largest_goodman_share": "share of the Goodman line", "largest_stress_over_yield": "stress over yield"}
-"""Column by which designs that tie are told apart in words, and what it is."""
-
-
 def length_column(table: pd.DataFrame) -> str:
     """Column of the length of the dangerous speeds: in operation, where it is known there."""
     inside = "length_dangerous_operating_rad_s"
@@ -125,9 +121,7 @@ def _best(rows: pd.DataFrame, length: str, flown: bool) -> str:
         return f"{names[least]} is dangerous at the fewest speeds{inside} ({bracket} rad/s)"
     text = f"{len(tied)} of {len(rows)} cannot be told apart by their dangerous and unknown speeds{inside}"
     # what diverged has no largest value
-    ended = tied[tied["diverged_runs"] == 0]
-    for measure, words in _TIE_BREAKERS.items():
-        if measure in tied and ended[measure].notna().any():
-            best = ended[measure].idxmin()
-            return f"{text}; of these {names[best]} has the least {words} ({ended[measure][best]:.3g})"
-    return text
+    shares = tied["largest_goodman_share"][tied["diverged_runs"] == 0].dropna()
+    if shares.empty:
+        return text
+    return f"{text}; of these {names[shares.idxmin()]} has the least share of the Goodman line ({shares.min():.3g})"
