@@ -256,7 +256,9 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
         yield HALF_FRICTION, blade.runs_from_rest(soonest, less)
     near, scene = judging.nearness(requirements, runs)[runs.operates], blade.rising_scene
     count = max(_speeds_near(near), int(np.count_nonzero(near >= 1.0)))
-    speeds = _nearest(requirements, runs, judging.nearness, count)
+    speeds, clearly = _nearest(requirements, runs, judging.nearness, count), judging.fails_clearly(requirements, runs)
+    if not clearly:
+        speeds = sorted({*speeds, *_beside_worst(requirements, runs)})
     changes = {judging.LOWEST_DAMPING: scene.damped("lowest"), judging.HIGHEST_DAMPING: scene.damped("highest")}
     fast = 0.1 * (scene.casing.rise_revolutions or 0.0)
     rises = {
@@ -274,7 +276,7 @@ def _large_changes(blade: JudgedBlade, requirements: Requirements, runs: Evidenc
         if changed != scene and speeds:
             run = partial(JudgedBlade.runs_from_rest, scene=changed)
             tried = speeds
-            if near.max() >= 1.0 and not requirements.above_yield and judging.fails_clearly(requirements, runs):
+            if clearly and near.max() >= 1.0 and not requirements.above_yield:
                 alone = (judging.nearness(requirements, runs.replaced(run(blade, [speed]))).max() for speed in speeds)
                 tried = next((speeds[:count] for count, nearest in enumerate(alone, 1) if nearest >= 1.0), speeds)
             yield look, _followed(blade, requirements, runs, run, tried)
@@ -295,6 +297,14 @@ def _nearest(
         order = np.argsort(-measure(limits, runs)[runs.operates], kind="stable")
         chosen |= dict.fromkeys(speeds[order[:most]].tolist())
     return [*chosen]
+
+
+def _beside_worst(requirements: Requirements, runs: Evidence) -> list[float]:
+    """Speeds (rad/s) up to a STEP beside the worst one of each limit, where a change may move it: a branch ends elsewhere."""
+    speeds = runs.response["speed"].values[runs.operates]
+    worst = [speeds[np.argmax(judging.nearness(only, runs)[runs.operates])] for only in judging.single_limits(requirements)]
+    beside = np.add.outer(worst, STEP * np.array([-1.0, -0.5, 0.5, 1.0]))
+    return np.clip(beside, runs.operating.first, runs.operating.last).ravel().tolist()
 
 
 def _speeds_near(near: np.ndarray) -> int:
