@@ -1,6 +1,7 @@
 """Rotors against a single blade: dangerous, unknown and sustained speeds, and how many blades are above yield at once."""
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from r37core.base.dataset_file import read_dataset
@@ -53,7 +54,7 @@ def kinds(input: Any, output: Any, params: Any) -> None:
             blades = at_once.get((blade, kind), int(bool(ranges[-1])))
             row = [blade, words, danger_cell(judged), *(_distance(parts, crossing) for parts in ranges)]
             rows.append([*row, f"{danger_of(judged)['largest_stress_over_yield']:.2f}", str(blades)])
-        draw_danger_rows(axes, drawn, ["#D55E00"] * len(drawn), lambda _, speed, at=crossing: _percent(speed, at))
+        draw_danger_rows(axes, drawn, ["#D55E00"] * len(drawn), partial(_percent, crossing))
         axes.axvline(0.0, color="0.3", linestyle="--", linewidth=0.9)
         axes.set_xlim(AVOIDED)
         axes.set_title(f"{blade}, 1B/4 at {crossing:.0f} rad/s", loc="left", fontweight="bold")
@@ -66,8 +67,9 @@ def kinds(input: Any, output: Any, params: Any) -> None:
 def _distance(ranges: Sequence[SpeedRange], crossing: float) -> str:
     """How far the first and the last speed of all ranges are from a `crossing` (rad/s), in percent of it."""
     ends = (ranges[0].begin, ranges[-1].end) if ranges else ()
-    return ", ".join(f"{_percent(end, crossing):+.1f}" for end in ends) or "-"
+    return ", ".join(f"{_percent(crossing, '', end):+.1f}" for end in ends) or "-"
 
 
-def _percent(speed: float, crossing: float) -> float:
+def _percent(crossing: float, _: str, speed: float) -> float:
+    """A speed (rad/s) in percent from a `crossing` (rad/s)."""
     return 100.0 * (speed / crossing - 1.0)
