@@ -206,8 +206,9 @@ def _section_axes(
         chord, normal = axes[:, 2], axes[:, 1]
         theta = np.array([-centre[1], centre[0], 0.0]) / np.hypot(centre[0], centre[1])
         towards_suction = theta if pressure_forward else -theta
-        chords.append(chord * np.sign(chord[2] if abs(chord[2]) > 0.02 else chord @ towards_suction))
-        normals.append(normal * np.sign(normal @ towards_suction))
+        # of a beam as thick as it is wide one may lie across the other's usual direction
+        chords.append(np.copysign(1.0, chord[2] if abs(chord[2]) > 0.02 else chord @ towards_suction) * chord)
+        normals.append(np.copysign(1.0, normal @ towards_suction) * normal)
     for series in (chords, normals):
         for i in range(1, len(series)):
             series[i] *= 1.0 if series[i] @ series[i - 1] >= 0.0 else -1.0

@@ -25,6 +25,12 @@ class RawMesh:
     blocks: Mapping[str, np.ndarray]
     sets: Mapping[str, np.ndarray]
 
+    def __post_init__(self) -> None:
+        """Raise ImportRefused for an element or a set with a node that the file lacks."""
+        for name, nodes in {**self.blocks, **self.sets}.items():
+            if ((nodes < 0) | (nodes >= len(self.points))).any():
+                raise ImportRefused(f"{name} names a node that the file lacks; write it again")
+
 
 def solid_blocks(cells: Iterable[tuple[str, np.ndarray]]) -> dict[str, np.ndarray]:
     """The solid elements among `cells` (type, nodes), joined by type in the order of the table of elements.

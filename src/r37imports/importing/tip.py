@@ -152,6 +152,9 @@ def _camber(points: np.ndarray, tip: np.ndarray, pressure: np.ndarray, suction: 
     distance, nearest = cKDTree(middle).query(points[tip])
     spacing = np.linalg.norm(np.diff(middle, axis=0), axis=1).max()
     near = distance <= np.maximum(_NEAR_CAMBER * across[nearest], 0.5 * spacing)
+    if near.sum() < 2:
+        # one element of first order across the tip has no nodes there
+        return pressure, fractions_along(points[pressure])
     order = np.argsort(nearest[near], kind="stable")
     return tip[near][order], _STEPS[nearest[near]][order]
 
