@@ -4,7 +4,7 @@ from itertools import product
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Discriminator, Field, Tag
+from pydantic import Field
 
 from r37core.blade.definition import Definition
 from r37core.config.blade_kind import BladeKind
@@ -65,27 +65,7 @@ SetOrRule: Any = either(FileName, SurfaceRule, rows=Annotated[list[FileName], Fi
 
 CyclicSection: Any = section_of(CyclicFaces, "The mesh is one sector of a disc, whose other sectors are carried.")
 
-_LEAST_METRES, _MOST_METRES = 1e-9, 1e3
-
-
-def _quotient(text: str) -> float:
-    """Metres of a unit that is written as a quotient, as 1/2540."""
-    try:
-        above, below = map(float, text.split("/"))
-        metres = above / below
-    except (ValueError, ZeroDivisionError):
-        metres = 0.0
-    if not _LEAST_METRES <= metres <= _MOST_METRES:
-        raise refused(text, f"a quotient such as 1/2540, from {_LEAST_METRES:g} to {_MOST_METRES:g} metres")
-    return metres
-
-
-LengthUnit = Annotated[
-    Annotated[Literal["m", "cm", "mm", "um", "in", "ft"], Tag("name")]
-    | Annotated[str, AfterValidator(_quotient), Tag("quotient")]
-    | Annotated[float, Field(ge=_LEAST_METRES, le=_MOST_METRES), Tag("metres")],
-    Discriminator(lambda value: ("quotient" if "/" in value else "name") if isinstance(value, str) else "metres"),
-]
+LengthUnit = Literal["m", "cm", "mm", "um", "in", "ft"] | Annotated[float, Field(ge=1e-9, le=1e3)]
 
 
 @declared_by(Orientation)
@@ -93,7 +73,7 @@ class Oriented(BladeKind):
     """How a file of another program describes space."""
 
     base: Name | LeftOut = left_out("Blade that gives what is left out")
-    length_unit: LengthUnit = option("Unit of the coordinates, or its length in metres, also as a quotient: 1/2540")
+    length_unit: LengthUnit = option("Unit of the coordinates, or its length in metres")
     sense_check: bool = option("Whether a blade whose trailing edge leads, or whose pressure side is convex, is refused", True)
 
     def orientation(self) -> Orientation:
@@ -154,7 +134,7 @@ class MatricesEntry(Oriented):
     file_keys = ("matrices",)
     has_material = False
 
-    matrices: FileName = option("Folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
+    matrices: FileName = option("Folder with M and K_<speed> at three speeds (.mtx), and boundary.csv")
     contact: Literal["points", "patches"] = option(
         "Contact acts on the nodes of boundary.csv (points) or on patches of its complete tip line", "points"
     )

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from r37core.base.io import TextFileError
 from r37core.config.blade_sections import CONTACT_IN_WORDS, KINEMATICS_IN_WORDS, Contact, Kinematics, MaterialSection
@@ -75,10 +75,7 @@ class SectionsEntry(ShapeKeys, Oriented):
     has_shape = True
 
     sections: FileName = option(".curve, .crv, .geomTurbo, or .csv with section, x, y, z")
-    length_unit: Annotated[
-        Annotated[LengthUnit, Tag("unit")] | Annotated[Literal["?"], Tag("asked")],
-        Discriminator(lambda value: "asked" if value == ASKED else "unit"),
-    ] = option("Unit, or ? to ask")
+    length_unit: LengthUnit | Literal["?"] = option("Unit, or ? to ask")
     rotation: Literal["positive", "negative", "?"] = option("Sense about rotor_axis, or ? to ask")
     hub: End | LeftOut = _end("first", "hub")
     tip: End | LeftOut = _end("last", "shroud")

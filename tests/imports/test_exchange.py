@@ -11,7 +11,6 @@ import pytest
 from box_mesh import TITANIUM, plate, write_deck, write_with_gmsh
 from defaults import Orientation
 from import_defaults import MeshSource, Where, assert_same_sets, refused
-from pydantic import TypeAdapter
 from scipy import constants
 
 from r37core.base.units import LENGTH_UNITS
@@ -26,7 +25,6 @@ from r37core.fem.write_mesh import write_mesh
 from r37core.mesh.generate import generate_mesh, quiet_gmsh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.rom.naming import ideal_shapes
-from r37imports.imported_entry import LengthUnit
 from r37imports.importing.abaqus_reader import read_abaqus
 from r37imports.importing.ansys_reader import read_ansys
 from r37imports.importing.bulk_data import bulk_cards
@@ -484,10 +482,6 @@ def test_all_elements_of_the_other_winding_are_turned(tmp_path, slope):
     again, quality = import_mesh(source("mesh.vtu", minimum_scaled_jacobian=0.0, end_check=not slope), tmp_path)
     assert quality.min() > 0.0 and (quality.min() < 0.1) == (slope > 0.0)
     assert assemble(again, TITANIUM).total_mass == pytest.approx(4400 * 0.06 * 0.004 * 0.03)
-
-
-def test_a_unit_may_be_a_quotient():
-    assert TypeAdapter(LengthUnit).validate_python("1/2540") == pytest.approx(0.0254 / 64.516)
 
 
 def test_a_blade_larger_than_any_is_told():

@@ -20,7 +20,6 @@ from r37core.fem.write_mesh import write_mesh
 from r37core.mesh.generate import generate_mesh, quiet_gmsh
 from r37core.rom.region_choice import RegionChoice
 from r37imports.imported_entry import MeshEntry, SurfaceRule
-from r37imports.importing.file_material import ignored_material
 from r37imports.importing.files import mesh_files
 from r37imports.importing.import_mesh import import_mesh, size_in_words
 from r37imports.importing.meshio_reader import read_msh
@@ -337,24 +336,6 @@ def test_the_first_answer_recognises_a_flat_tip(tmp_path):
     with refused("no surface of revolution"):
         import_mesh(replace(source, **ends), tmp_path)
     import_mesh(replace(source, **ends, revolution_tolerance=entry["revolution_tolerance_m"]), tmp_path)
-
-
-@pytest.mark.parametrize(
-    ("file", "text", "found"),
-    [
-        ("a.inp", "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=A\n*ELASTIC\n115000., 0.32\n*DENSITY\n4.4e-9\n", None),
-        ("a.inp", "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=A\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.85e-9\n", 210000.0),
-        ("a.inp", "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=A\n*ELASTIC\n115e9, 0.32\n", None),
-        ("a.inp", "*NODE\n1, 0, 0, 0\n", None),
-        ("a.bdf", "MAT1,1,2.1+11,,.3,7850.\n", 2.1e11),
-        ("a.bdf", "MAT1           1  1.15+5             .324.4-9    \n", None),
-        ("a.bdf", "MAT1*                  1         2.1+11                              .3\n*                 7850.\n", 2.1e11),
-    ],
-)
-def test_a_material_of_the_file_that_is_not_used(tmp_path, file, text, found):
-    (tmp_path / file).write_text(text)
-    other = ignored_material(file, tmp_path, TITANIUM)
-    assert other is None if found is None else other.youngs_modulus == found
 
 
 def write_boxes(file, boxes, options=(), grouped=(), partitions=0, size=1e22):

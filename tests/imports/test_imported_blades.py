@@ -32,7 +32,7 @@ def settings_with(config_copy):
     folder.mkdir(parents=True)
     (config_copy / "meshes/fan.inp").write_text("*NODE\n*INCLUDE, INPUT=more.inc\n")
     (config_copy / "meshes/more.inc").write_text("1, 0, 0, 0\n")
-    for name in ("M.mtx", "K_0.mtx", "K_1000.npz", "K_2000.mtx", "boundary.csv"):
+    for name in ("M.mtx", "K_0.mtx", "K_1000.mtx", "K_2000.mtx", "boundary.csv"):
         (folder / name).write_text("")
 
     def read(entry, others=(), config=(), blades=("Fan",)):
@@ -150,7 +150,7 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     fan, given = (SimpleNamespace(blade=blade, scene="direct", speed="750") for blade in ("Fan", "Given"))
     assert [*map(imported.pattern, ("geometry", "imported_mesh", "imported_matrices"))] == ["Ref", "Fan", "Given"]
     assert imported.files(fan) == ["meshes/fan.inp", "meshes/more.inc"]
-    names = ["K_0.mtx", "K_1000.npz", "K_2000.mtx", "M.mtx", "boundary.csv"]
+    names = ["K_0.mtx", "K_1000.mtx", "K_2000.mtx", "M.mtx", "boundary.csv"]
     assert [file.rsplit("/", 1)[1] for file in imported.files(given)] == names
     assert imported.locations(fan)["tip"].endswith(": Fan.tip")
     assert sweep.runs_with("stress") == [(blade, scene) for blade in ("Ref", "Fan") for scene in ("abradable", "direct")]

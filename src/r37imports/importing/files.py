@@ -47,14 +47,14 @@ def matrix_files(name: str, root: Path) -> dict[str, Path]:
     if not os.path.isdir(folder):
         raise ImportRefused(f"there is no folder {name}", "matrices")
     ours = (file for file in sorted(folder.glob("*")) if os.path.isfile(file))
-    files = [file for file in ours if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
+    files = [file for file in ours if file.suffix == ".mtx" or file.name == "boundary.csv"]
     files_of_stem = {file.stem: file for file in files}
     speeds = [stem for stem in files_of_stem if stem.startswith("K_")]
     missing = [stem for stem in ("M", "boundary") if stem not in files_of_stem]
     if missing or len(speeds) != 3 or len(files_of_stem) != len(files):
         raise ImportRefused(
             f"{name}: found {', '.join(file.name for file in files) or 'no files'}; needed: M and K_<speed> at three speeds in "
-            "rad/s, one of them 0 (each .mtx or .npz), and boundary.csv",
+            "rad/s, one of them 0 (each .mtx), and boundary.csv",
             "matrices",
         )
     return files_of_stem

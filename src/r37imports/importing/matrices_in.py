@@ -1,7 +1,7 @@
 """Matrices of another program as a reduced model: the second way in, from a directory of files.
 
-`M.mtx` and `K_<speed>.mtx` at rest and at two speeds in rad/s, full or already reduced, the root clamped; Matrix Market or .npz
-(of SciPy's sparse matrices, or of one array). `boundary.csv`: the contact nodes from the leading to the trailing edge, with
+`M.mtx` and `K_<speed>.mtx` at rest and at two speeds in rad/s, full or already reduced, the root clamped, as Matrix
+Market. `boundary.csv`: the contact nodes from the leading to the trailing edge, with
 columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matrices, from 0. A column tip_length (file's unit)
 may follow: the length of tip, along the casing's meridian, that a node stands for. For contact on patches the table has the
 nodes of the tip line, from which the patches are made.

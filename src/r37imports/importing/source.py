@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -137,17 +137,6 @@ class MeshSource(Definition):
     def files(self, root: Path) -> list[Path]:
         """The mesh file and those that it includes. Raises ImportRefused as `mesh_files`."""
         return mesh_files(self.file, root)
-
-    def remarks(self, root: Path, material: Any) -> list[str]:
-        """A material of the file that differs from the blade's."""
-        # it reads decks, which few meshes are
-        from .file_material import ignored_material
-
-        other = ignored_material(self.file, root, material)
-        if other is None:
-            return []
-        text = f"{self.file} has a material of its own ({other.wording}, in its units); it is not used"
-        return [f"{text}, and differs from that of blades.yaml"]
 
     def height(self, points: np.ndarray) -> np.ndarray | None:
         """Distance (m) of `points`, shape (n, 3), above the platform's top, shape (n,); None without a platform."""
