@@ -75,7 +75,7 @@ class SectionsEntry(ShapeKeys, Oriented):
     has_shape = True
 
     sections: FileName = option(".curve, .crv, .geomTurbo, or .csv with section, x, y, z")
-    length_unit: LengthUnit | Literal["?"] = option("Unit, or ? to ask")
+    length_unit: LengthUnit | Literal["?"] = option("Unit, or ? to ask")  # type: ignore[assignment]
     rotation: Literal["positive", "negative", "?"] = option("Sense about rotor_axis, or ? to ask")
     hub: End | LeftOut = _end("first", "hub")
     tip: End | LeftOut = _end("last", "shroud")
