@@ -18,6 +18,7 @@ from r37core.blade.profile_tables import check_sweep, read_profile_table, stacki
 from r37core.blade.section_changes import SectionChangeError
 from r37core.blade.sense import check_profile_sense
 from r37core.fem import material as fem_material
+from r37core.mesh.disc import Disc
 from r37core.rom.reduction_choice import PATCHES, QUADRATIC
 from r37core.rom.region_choice import RegionChoice
 from r37core.stress.statistic import Strengths
@@ -92,13 +93,22 @@ def blades_model() -> type[RootModel[dict[str, Any]]]:
 
 @dataclass(frozen=True)
 class BladeSettings:
-    """One blade: what gives its shape, its material (none for matrices), contact, kinematics, own regions of stress."""
+    """One blade: what gives its shape, its material (none for matrices), contact, kinematics, own regions of stress.
+
+    `disc`: on which this program meshes it, None of one that is clamped or comes with its disc.
+    """
 
     definition: Definition
     material: fem_material.Material | None
     contact: str
     kinematics: str
     stress_regions: Mapping[str, RegionChoice] = field(default_factory=dict, hash=False)
+    disc: Disc | None = None
+
+    @property
+    def cyclic(self) -> Any:
+        """The disc that it is a sector of, with its number of `sectors`; None of a blade alone."""
+        return self.disc or self.definition.cyclic
 
     @property
     def has_profiles(self) -> bool:
@@ -160,7 +170,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     regions = chosen_regions(next(filter(None, own), {}))
     if isinstance(entry, BladeKind) and not entry.has_shape:
         for link in chain[1:]:
-            keys = [key for key in (*SHIFTS, *SHARES, *SECTION_KEYS) if getattr(entries[link], key) is not None]
+            keys = [key for key in (*SHIFTS, *SHARES, *SECTION_KEYS, "disc") if getattr(entries[link], key) is not None]
             if keys := keys if entries[link].sense_check else [*keys, "sense_check"]:
                 raise document.refusal(
                     f"{keys[0]} with the {entry.key} of {first}", "another material, no other shape", link, keys[0]
@@ -182,7 +192,8 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         shape = _changed(link, entries[link], shape, document)
     with document.blamed(place, BladeShapeError, before=f"blade {name}: "):
         check_sweep(shift.get("stacking") or (), shape.height)
-    return BladeSettings(shape, material, contact, kinematics, regions)
+    disc = entries[link_with("disc", chain, entries)].disc
+    return BladeSettings(shape, material, contact, kinematics, regions, disc and si(disc))
 
 
 def _shape(entry: Any, first: str, root: Path, document: Document, check_sense: bool) -> Shape:

@@ -139,7 +139,7 @@ def kinematics_can_be_had(settings: Settings) -> None:
 
 def discs_carry_one_blade(settings: Settings) -> None:
     """A sector of a disc has small displacements and one blade in contact, and its matrices are not those of a blade."""
-    wanted = {name: settings.kinematics_of(name) for name, blade in settings.blades.items() if blade.definition.cyclic}
+    wanted = {name: settings.kinematics_of(name) for name, blade in settings.blades.items() if blade.cyclic}
     for name, kinematics in wanted.items():
         if kinematics != LINEAR:
             value = f"{kinematics} with the blade '{name}', on a disc (cyclic)"

@@ -73,9 +73,10 @@ class Designs(Generic[E]):
     def locations_of_keys(self, blade: str) -> dict[str, str]:
         """Key of a blade's entry, or of the entry that its base has it from -> `file:line: blade.key`."""
         entry: Any = self.entries[blade]
-        if base := getattr(entry, "base", None):
-            return self.locations_of_keys(base)
-        return {key: f"{self.document.location((blade, key))}: {blade}.{key}" for key in type(entry).model_fields}
+        base = getattr(entry, "base", None)
+        keys = entry.model_fields_set if base else type(entry).model_fields
+        own = {key: f"{self.document.location((blade, key))}: {blade}.{key}" for key in keys}
+        return (self.locations_of_keys(base) if base else {}) | own
 
 
 def expanded_families(entries: Mapping[str, E], root: Path, document: Document) -> Designs[E]:

@@ -9,7 +9,9 @@ from r37core.blade.definition import Shape
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_spans
 from r37core.blade.section_changes import SectionChangeError, SpanLaw
+from r37core.mesh.disc import Disc
 
+from .declaring import section_of
 from .section import FileName, LeftOut, Section, either, left_out, option
 from .varied import FamilyKeys
 
@@ -94,6 +96,9 @@ class SweepLean(Section):
     lean_deg: float = option("Lean, positive in the direction of rotation", gt=-90, lt=90)
 
 
+DiscSection: Any = section_of(Disc, "A disc clamped at its bore, on which one blade rubs and the others are carried.")
+
+
 class ShapeKeys(FamilyKeys):
     """Changes of profiles or sections, with at most one way to give sweep and lean."""
 
@@ -114,3 +119,4 @@ class ShapeKeys(FamilyKeys):
     camber_deg: Angles | LeftOut = left_out("Angle added to the camber kappa_ic - kappa_oc")
     chord_percent: Shares | LeftOut = left_out("Share of the chord that is kept, on the same cones")
     thickness_percent: Shares | LeftOut = left_out("Share of all thicknesses that is kept")
+    disc: DiscSection | LeftOut = left_out("Disc under the root; by default that of the base, without one the root is clamped")

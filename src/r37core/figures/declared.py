@@ -45,9 +45,7 @@ FIGURES = (
     Figure(
         rule="interference_figure",
         name="interference_{blade}",
-        runs=lambda sweep: of(
-            "blade", [name for name in sweep.drawn["blade"] if sweep.settings.blades[name].definition.cyclic]
-        ),
+        runs=lambda sweep: of("blade", [name for name in sweep.drawn["blade"] if sweep.settings.blades[name].cyclic]),
         draw="r37core.figures.interference.draw_interference",
         files={"campbell": CAMPBELL},
         label="interference",

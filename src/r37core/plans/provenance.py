@@ -64,6 +64,8 @@ def structure_hash(settings: Settings, blade: str) -> str:
     mesh, reduction = settings.fidelity.mesh.model_dump(exclude_none=True), settings.reduction_choice(blade)
     # in this order, so that results keep their hash
     choices = {"boundary": settings.boundary_choice(blade), "speeds": reduction.speeds}
+    disc = settings.blades[blade].disc
+    choices |= {"disc": disc} if disc else {}
     choices |= {"stress_regions": settings.stress_regions(blade), **to_plain(reduction)}
     return _short_hash(shape_hash(settings, blade), elastic, mesh, choices)
 

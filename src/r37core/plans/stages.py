@@ -50,7 +50,11 @@ def structure_stages(structure: Structure) -> dict[str, Stage]:
     stages = {
         "geometry": Stage("r37core.blade.steps.geometry", shape, "shape", modules=shapes),
         "mesh": Stage(
-            "r37core.fem.steps.mesh", {"mesh": plain(settings.fidelity.mesh)}, "mesh", {"geometry": "geometry"}, shapes
+            "r37core.fem.steps.mesh",
+            {"mesh": plain(settings.fidelity.mesh), "disc": structure.disc, "locations": structure.locations},
+            "mesh",
+            {"geometry": "geometry"},
+            shapes,
         ),
         "reduced_model": Stage(
             "r37core.rom.steps.reduced_model",

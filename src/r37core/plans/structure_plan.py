@@ -34,6 +34,10 @@ class Structure:
         """Material of a blade; None for one of matrices."""
         return to_plain(self.settings.blades[wildcards.blade].material)
 
+    def disc(self, wildcards: Any) -> dict[str, float] | None:
+        """Disc under a blade; None of one that is clamped."""
+        return to_plain(self.settings.blades[wildcards.blade].disc)
+
     def elastic(self, wildcards: Any) -> dict[str, float]:
         """Material of a blade with a mesh, without its strengths."""
         return to_plain(self.settings.blades[wildcards.blade].elastic.material)
