@@ -14,11 +14,12 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
+import scipy.linalg as la
 import scipy.sparse as sp
 
 from r37core.mesh.blade_mesh import BladeMesh
 
-from .solver import factorise
+from .solver import Solve, factorise
 
 
 def aliased(order: int, sectors: int) -> int:
@@ -37,6 +38,47 @@ class SectorMatrix:
         """The matrix at e^{i n a} = `phase`: Hermitian, and real at a real phase."""
         factor = phase if phase.imag else phase.real
         return sp.csr_array(self.own + factor * self.coupling + np.conj(factor) * self.coupling.T)
+
+    @cached_property
+    def _inside(self) -> tuple[np.ndarray, np.ndarray, Solve, list[sp.csc_array], np.ndarray]:
+        """Degrees of freedom of the low face, and all others, which no phase changes, with what solves for these.
+
+        Their matrices with the low face, of `own` and of `coupling`, and what these two do to each other through the others.
+        """
+        face = np.unique(self.coupling.indices)
+        others = np.setdiff1d(np.arange(self.own.shape[0]), face)
+        solve = factorise(self.own[others][:, others])
+        towards = [sp.csc_array(part[others][:, face]) for part in (self.own, self.coupling)]
+        both = sp.csc_array(sp.hstack(towards))
+        # two columns at once cost least
+        parts = [both.T @ solve(both[:, [number, number + 1]].toarray()) for number in range(0, both.shape[1], 2)]
+        return face, others, solve, towards, np.hstack([np.empty((len(face) * 2, 0)), *parts])
+
+    def solver(self, phase: complex) -> Solve:
+        """Solve with the positive definite matrix at e^{i n a} = `phase`.
+
+        All but the low face is real and the same at all phases: it is factorised once, a tenth of the time of complex factors.
+        """
+        face, others, solve, (own, coupling), through = self._inside
+        factor = phase if phase.imag else phase.real
+        towards, phases = own + factor * coupling, np.repeat([1.0, factor], len(face))
+        reaction = (np.conj(phases)[:, None] * through * phases).reshape(2, len(face), 2, len(face)).sum(axis=(0, 2))
+        held = la.inv(self.at(phase)[face][:, face].toarray() - reaction)
+
+        def inside(load: np.ndarray) -> np.ndarray:
+            if not np.any(load.imag):
+                return solve(np.real(load))
+            parts = [solve(np.stack([column.real, column.imag], axis=1)) for column in load.reshape(len(load), -1).T]
+            return (np.array(parts) @ [1.0, 1.0j]).T.reshape(load.shape)
+
+        def solved(load: np.ndarray) -> np.ndarray:
+            moved = np.empty(load.shape, dtype=np.result_type(load, factor))
+            free = inside(load[others])
+            moved[face] = held @ (load[face] - towards.conj().T @ free)
+            moved[others] = free - inside(towards @ moved[face])
+            return moved
+
+        return solved
 
 
 @dataclass(frozen=True)

@@ -24,16 +24,7 @@ def factorise(matrix: sp.sparray) -> Solve:
 
     SuperLU in symmetric mode with minimum-degree ordering of A^T + A. On this project's meshes (thin, almost
     two-dimensional) it is within a factor of two of CHOLMOD, without its licence and platform limits. MemoryError without room.
-    A complex matrix is one of real and imaginary parts: a quarter of the time of SuperLU's complex arithmetic.
     """
-    if np.iscomplexobj(matrix):
-        both = factorise(sp.kron(matrix.real, np.eye(2)) + sp.kron(matrix.imag, np.array([[0.0, -1.0], [1.0, 0.0]])))
-
-        def solve(load: np.ndarray) -> np.ndarray:
-            moved = both(np.ascontiguousarray(load.T, dtype=complex).view(float).T)
-            return np.ascontiguousarray(moved.T).view(complex).T
-
-        return solve
     if resource.getrlimit(resource.RLIMIT_AS)[0] != resource.RLIM_INFINITY:
         _check_room(matrix)
     factors = sla.splu(sp.csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})

@@ -17,7 +17,7 @@ import scipy.sparse as sp
 
 from r37core.fem.matrices import StructuralMatrices
 from r37core.fem.sector import Sector
-from r37core.fem.solver import factorise, lowest_modes
+from r37core.fem.solver import Solve, factorise, lowest_modes
 
 from .craig_bampton import combine_columns, symmetric
 from .disc_modes import DiscModes
@@ -64,7 +64,8 @@ def reduce_disc(
     waves = []
     for number in sector.nodal_diameters:
         phase = sector.phase(number)
-        waves.append(_wave([part.at(phase) for part in cyclic], sector.expansion(phase), contact, reduction))
+        solve = cyclic[0].solver(phase)
+        waves.append(_wave([part.at(phase) for part in cyclic], solve, sector.expansion(phase), contact, reduction))
     # coordinates of unit mass of the whole disc, nodal diameter by nodal diameter
     moved = np.hstack([_moved(wave.shapes, sector.sectors) for wave in waves])
     squares = np.concatenate([np.tile(wave.squares, _parts(wave)) for wave in waves])
@@ -88,10 +89,11 @@ def reduce_disc(
     return DiscReduction(moved @ basis, singular, rotation_shapes, fields)
 
 
-def _wave(terms: list[sp.csr_array], expansion: sp.csr_array, contact: sp.csr_array, reduction: ReductionChoice) -> _Wave:
-    """Modes of one nodal diameter from its stiffness, mass and change of the stiffness per squared speed."""
+def _wave(
+    terms: list[sp.csr_array], solve: Solve, expansion: sp.csr_array, contact: sp.csr_array, reduction: ReductionChoice
+) -> _Wave:
+    """Modes of one nodal diameter from its stiffness, with what solves with it, mass and change of the stiffness per square."""
     stiffness, mass, per_square = terms
-    solve = factorise(stiffness)
     _, lowest = lowest_modes(stiffness, mass, reduction.fixed_interface_modes, solve)
     static = solve((contact @ expansion).toarray().conj().T)
     columns = np.hstack([lowest, solve(per_square @ lowest), static])
