@@ -16,7 +16,7 @@ from discs import plate_sector, turn, whole_disc
 
 from r37core.blade.profile import BladeShapeError
 from r37core.fem.abaqus_deck import write_abaqus
-from r37core.fem.disc_mesh import with_disc
+from r37core.fem.disc_mesh import mesh_disc
 from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
 from r37core.fem.sector import Sector, aliased
@@ -131,7 +131,7 @@ def test_one_blade_is_moved_by_forces_on_it_as_on_the_whole_disc():
 def on_disc(blade):
     """A blade of the package, alone and on a disc of 36."""
     alone = generate_mesh(blade, 1200, 1, 8)
-    return alone, with_disc(alone, DISC)
+    return alone, mesh_disc(alone, DISC)
 
 
 def test_a_disc_is_meshed_under_a_blade(on_disc):
@@ -171,7 +171,7 @@ def test_a_blade_on_a_clamped_disc_is_the_clamped_blade(on_disc):
 @pytest.mark.parametrize("key", ["web", "rim", "bore_radius", "sectors"])
 def test_a_disc_that_does_not_fit_is_refused(on_disc, key):
     with pytest.raises(BladeShapeError, match=r"there: found bore_radius_m .*; allowed under this root: bore_radius_m below 0"):
-        with_disc(
+        mesh_disc(
             on_disc[0], replace(DISC, **{key: {"web": 0.05, "rim": 0.1, "bore_radius": 0.17, "sectors": 300}[key]}), "there"
         )
 

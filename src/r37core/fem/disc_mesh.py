@@ -84,7 +84,7 @@ class _Root:
         )
 
 
-def with_disc(blade: BladeMesh, disc: Disc, location: str = "disc") -> BladeMesh:
+def mesh_disc(blade: BladeMesh, disc: Disc, location: str = "disc") -> BladeMesh:
     """The blade on a sector of the disc, clamped at its bore.
 
     Raises BladeShapeError, after the `location` of the disc's keys, where it does not fit.
@@ -141,16 +141,15 @@ def _mesh_top(root: _Root) -> tuple[np.ndarray, dict[str, tuple[np.ndarray, np.n
     across = total // 2 - along
     with quiet_gmsh():
         points = [geo.addPoint(*place, 0.0) for place in own[round_root[::2]]]
-        ring = [[geo.addLine(points[k], points[(k + 1) % total])] for k in range(total)]
-        caps = []
-        for k in chain(range(along, along + across), range(total - across, total)):
-            (start, end), middle = own[round_root[[2 * k, (2 * k + 2) % (2 * total)]]], round_root[2 * k + 1]
+        lines = [geo.addLine(*ends) for ends in zip(points, points[1:] + points[:1], strict=True)]
+        ring, loops = [[line] for line in lines], []
+        for k in (*range(along, along + across), *range(total - across, total)):
+            start, end = own[round_root[[2 * k, 2 * k + 2 - 2 * total]]]
             ahead = np.array([start[1] - end[1], end[0] - start[0]])
             reach = min(_CAP, 0.5 * OVERHANG * np.ptp(root.z) / np.hypot(*ahead))
             top = geo.addPoint(*(0.5 * (start + end) + reach * ahead), 0.0)
-            geo.remove([(1, ring[k][0])])
-            ring[k] = [geo.addLine(points[k], top), geo.addLine(top, points[(k + 1) % total])]
-            caps.append((k, top, middle))
+            ring[k] = [geo.addLine(points[k], top), geo.addLine(top, points[k + 1 - total])]
+            loops.append([lines[k], *ring[k]])
         sides = [[geo.addPoint(*place, 0.0) for place in side] for side in root.sides]
         edges = [[geo.addLine(*ends) for ends in pairwise(side)] for side in sides]
         ends = [geo.addLine(sides[0][place], sides[1][place]) for place in (0, 3)]
@@ -159,14 +158,14 @@ def _mesh_top(root: _Root) -> tuple[np.ndarray, dict[str, tuple[np.ndarray, np.n
             [geo.addLine(points[corner], side[place]) for corner, side in zip(corners, sides, strict=True)]
             for place, corners in ((1, (begin, front)), (2, (end, back)))
         ]
-        loops = [
-            [edges[0][1], links[0][0], links[1][0], *chain(*ring[begin:end])],
-            [edges[1][1], links[0][1], links[1][1], *chain(*ring[back:front])],
+        loops += [
             [edges[0][0], ends[0], edges[1][0], *links[0], *chain(*ring[front:], *ring[:begin])],
             [edges[0][2], ends[1], edges[1][2], *links[1], *chain(*ring[end:back])],
+            [edges[0][1], links[0][0], links[1][0], *chain(*ring[begin:end])],
+            [edges[1][1], links[0][1], links[1][1], *chain(*ring[back:front])],
         ]
         surfaces = [geo.addPlaneSurface([geo.addCurveLoop(loop, reorient=True)]) for loop in loops]
-        for line in chain(*ring):
+        for line in {*lines, *chain(*ring)}:
             geo.mesh.setTransfiniteCurve(line, 2)
         geo.synchronize()
         mesh.setPeriodic(1, edges[1], edges[0], [1, 0, 0, root.pitch, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
@@ -174,28 +173,15 @@ def _mesh_top(root: _Root) -> tuple[np.ndarray, dict[str, tuple[np.ndarray, np.n
         mesh.generate(2)
         tags, coordinates, _ = mesh.getNodes()
         number = np.zeros(int(tags.max()) + 1, dtype=np.int64)
-
-        def tag(dimension: int, entity: int) -> int:
-            return int(mesh.getNodes(dimension, entity)[0][0])
-
-        known = {tag(0, point): node for point, node in zip(points, round_root[::2], strict=True)}
-        known |= {tag(1, lines[0]): node for lines, node in zip(ring, round_root[1::2], strict=True) if len(lines) == 1}
-        outside = ~np.isin(tags, list(known))
-        number[list(known)] = list(known.values())
-        number[tags[outside]] = len(own) + np.arange(outside.sum())
+        entities = chain.from_iterable(enumerate(pair) for pair in zip(points, lines, strict=True))
+        known = [mesh.getNodes(*entity)[0][0] for entity in entities]
+        outside = ~np.isin(tags, known)
+        number[known], number[tags[outside]] = round_root, len(own) + np.arange(outside.sum())
         triangles = [number[mesh.getElementsByType(_TRIANGLE6, surface)[1]].reshape(-1, 6) for surface in surfaces]
-        triangles += [
-            np.array(
-                [
-                    [*round_root[[2 * k, (2 * k + 2) % (2 * total)]], *number[[tag(0, top)]], middle]
-                    + [number[tag(1, line)] for line in reversed(ring[k])]
-                ]
-            )
-            for k, top, middle in caps
-        ]
         faces = [np.unique(number[np.concatenate([mesh.getNodes(1, line, True)[0] for line in side])]) for side in edges]
     places = np.concatenate([own, coordinates.reshape(-1, 3)[outside, :2]])
-    above_web = np.repeat([True, True, *[False] * (len(triangles) - 2)], [len(part) for part in triangles])
+    # the last two surfaces
+    above_web = np.arange(sum(map(len, triangles))) >= sum(map(len, triangles[:-2]))
     pairs = np.stack([side[np.argsort(places[side, 1])] for side in faces], axis=1)
     below = {"wedge15": (np.concatenate(triangles), above_web), "hexahedron20": (root.faces, root.above_web)}
     return places, {kind: (_upright(nodes, places), above) for kind, (nodes, above) in below.items()}, pairs

@@ -11,7 +11,7 @@ from r37core.mesh.disc import Disc
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
 
-from .disc_mesh import with_disc
+from .disc_mesh import mesh_disc
 from .mesh_quality import check_quality, mesh_quality
 
 
@@ -25,7 +25,7 @@ def mesh(input: Any, output: Any, params: Any) -> None:
     with atomic_write(output.msh) as msh_file:
         made = generate_mesh(read_geometry(input.geometry), level["nodes"], level["layers"], level["tip_elements"], msh_file)
         if params.disc:
-            made = with_disc(made, from_plain(Disc, params.disc), params.locations["disc"])
+            made = mesh_disc(made, from_plain(Disc, params.disc), params.locations["disc"])
         quality = mesh_quality(made)
         JOB_LOG.debug(f"{len(made.points)} nodes, {len(quality)} wedges")
         JOB_LOG.debug(f"scaled Jacobian: minimum {np.min(quality):.3f}, 1% quantile {np.quantile(quality, 0.01):.3f}")
