@@ -142,12 +142,12 @@ def discs_carry_one_blade(settings: Settings) -> None:
     wanted = {name: settings.kinematics_of(name) for name, blade in settings.blades.items() if blade.cyclic}
     for name, kinematics in wanted.items():
         if kinematics != LINEAR:
-            value = f"{kinematics} with the blade '{name}', on a disc (cyclic)"
-            raise settings.document.refusal(value, f"{LINEAR}, or the blade without cyclic", "structure", "kinematics")
+            value = f"{kinematics} with the blade '{name}', on a disc"
+            raise settings.document.refusal(value, f"{LINEAR}, or the blade without its disc", "structure", "kinematics")
     for name, chosen in settings.scenes.items():
         if wanted and chosen.scene.rotor is not None:
-            value = f"a rotor with the blade '{next(iter(wanted))}', on a disc (cyclic): blades are not coupled through it"
-            allowed = "one blade in contact, or the blade without cyclic"
+            value = f"a rotor with the blade '{next(iter(wanted))}', on a disc: blades are not coupled through it"
+            allowed = "one blade in contact, or the blade without its disc"
             raise settings.scene_designs.document.refusal(value, allowed, name, "rotor")
 
 

@@ -16,7 +16,7 @@ class Disc:
     The rim is wider than the root by a tenth at both ends.
     """
 
-    web: Annotated[float, Key("Axial thickness of the web", "_m", gt=0, le=10)]
-    rim: Annotated[float, Key("Radial thickness of the rim", "_m", gt=0, le=10)]
-    bore_radius: Annotated[float, Key("Radius of the clamped bore", "_m", gt=0, le=100)]
+    web: Annotated[float, Key("Axial thickness of the web", "_m", ge=1e-4, le=10)]
+    rim: Annotated[float, Key("Radial thickness of the rim", "_m", ge=1e-4, le=10)]
+    bore_radius: Annotated[float, Key("Radius of the clamped bore", "_m", ge=1e-3, le=100)]
     sectors: Annotated[int, Key("Number of blades on the disc", ge=3, le=400)]
