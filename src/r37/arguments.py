@@ -1,6 +1,7 @@
 """Speeds and other numbers as arguments of a call."""
 
 from collections.abc import Iterable, Mapping
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,10 @@ Speeds = Iterable[float | Mapping[str, float]] | Mapping[str, float]
 """Numbers, and ranges `{"start": ..., "stop": ..., "step": ..., "refine_to": ...}` as in config.yaml."""
 
 
+MOST_SPEEDS = 100_000
+"""Speeds and ranges of a call, which may be endless."""
+
+
 def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
     """The key of config.yaml that speeds stand under, with plain numbers and ranges, which the configuration checks.
 
@@ -24,7 +29,10 @@ def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
         several = [several]
     if isinstance(several, str | bytes) or not isinstance(several, Iterable):
         raise ConfigError(f"{key}: found {single_line(repr(several))}; allowed: a list of numbers and ranges, in {unit}")
-    return {key: [_plain_speed(entry, key, unit) for entry in several]}
+    entries = [*islice(several, MOST_SPEEDS + 1)]
+    if len(entries) > MOST_SPEEDS:
+        raise ConfigError(f"{key}: found more than {MOST_SPEEDS} values; allowed: at most as many")
+    return {key: [_plain_speed(entry, key, unit) for entry in entries]}
 
 
 def _plain_speed(entry: Any, key: str, unit: str) -> Any:
