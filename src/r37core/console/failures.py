@@ -75,11 +75,11 @@ def show(line: str, stream: TextIO | None) -> None:
 
 @contextlib.contextmanager
 def printed_warnings(locations: Mapping[str, str]) -> Iterator[None]:
-    """Print what an import is warned of, after the location of its key: in the log, on the screen, and when the run ends."""
+    """Print what a mesh or import is warned of, after the location of its key: in the log, on the screen, when the run ends."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         yield
-    location = locations.get("mesh") or locations["matrices"]
+    location = next(locations[key] for key in ("mesh", "matrices", "disc") if key in locations)
     for warning in caught:
         print(line := f"{location}: {warning.message}")
         if issubclass(warning.category, UserWarning):

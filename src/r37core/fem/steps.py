@@ -18,7 +18,6 @@ from .mesh_quality import check_quality, mesh_quality
 def mesh(input: Any, output: Any, params: Any) -> None:
     """Mesh a blade, and a sector of the disc under it. Input: geometry. Outputs: msh, of the blade alone, vtu.
 
-
     Params: mesh, of the fidelity level; disc, or None; locations (of the keys). Raises ValueError for poor quality.
     """
     level = params.mesh
