@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from r37core.fem.sector import aliased
 from r37core.rom.naming import NAMED_MODES, mode_label
@@ -32,5 +33,6 @@ def draw_interference(campbell: xr.Dataset, title: str) -> Figure:
             look = {"markersize": 4.0, "markerfacecolor": colour if filled else "white", "zorder": 3}
             axes.plot(diameters, family, "o-", color=colour, linewidth=0.6, label=label, **look)
     axes.set_title(f"interference diagram, blade {title}, {sectors} sectors")
-    axes.legend(loc="lower right", frameon=True, framealpha=0.9)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), title="filled: spinning, open: at rest")
     return figure
