@@ -32,7 +32,7 @@ use rule step as trial_model with:
         model=MODEL_NAME,
     priority: 2
     params:
-        **{**stages["reduced_model"].params, "kept": False},
+        **{**stages["mesh"].params, **stages["reduced_model"].params, "kept": False},
         **step("r37studies.trials.steps.model"),
         choice=trials.reduction,
 
