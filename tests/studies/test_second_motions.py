@@ -1,4 +1,4 @@
-"""Second motions: sweeps that carry the state on, where motions differ, what becomes of them, and the answers with them."""
+"""Second motions: sweeps that carry the state on, where motions differ, and the answers with them."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +12,6 @@ import yaml
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, DIRECT, oscillator, with_static_modes
 
-from r37core.base.dataset_file import read_dataset
 from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.figures.response_curves import draw_response
@@ -23,22 +22,19 @@ from r37core.rom.contact_model import write_contact_model
 from r37core.stress.statistic import UNKNOWN
 from r37core.time_integration.carrying import END_WEAR
 from r37core.time_integration.integrators import EXACT_MODAL
-from r37core.time_integration.motion_kind import KindNumbers
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import OF_RUNS, run_speed
-from r37core.time_integration.status import MotionKind, RunStatus
+from r37core.time_integration.status import RunStatus
 from r37studies.second_motions import steps
 from r37studies.second_motions.added import ranking_with_motions, summary_with_motions
-from r37studies.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
-from r37studies.second_motions.dataset import dwell_dataset, pair_motions
-from r37studies.second_motions.dwelling import begun_as, dwell, dwells_at, finish_revolution, random_states, speeds_dwelt_on
+from r37studies.second_motions.choice import DOWN, MOTIONS, REST, UP, SweepChoice
+from r37studies.second_motions.dataset import pair_motions
 from r37studies.second_motions.figures import draw_second_motions
-from r37studies.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
+from r37studies.second_motions.levels import MotionLevels, motions_differ, read_levels, write_levels
 from r37studies.second_motions.plan import finished_runs, results
-from r37studies.second_motions.states import MotionLevels, SweptStates, levels_of, motions_differ, read_states, write_states
 from r37studies.second_motions.sweeping import CarriedSweep
-from r37studies.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
+from r37studies.second_motions.tables import RANGE_COLUMNS, closing, range_table
 
 CHOICE = IntegrationChoice(6.4e-6, 20, 62, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
@@ -49,24 +45,6 @@ LINED = replace(ABRADABLE, lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_wid
 
 def sweep_of(model, motion, scene=GROWING, sweep=SWEEP, choice=CHOICE):
     return CarriedSweep(model, scene, choice, (), KEPT, sweep=sweep, motion=motion)
-
-
-def states_of(model, folder, scene=GROWING, sweep=SWEEP, choice=CHOICE):
-    """States of all three motions, and the files of their runs, by ascending speed."""
-    states, files = {}, {}
-    for motion in MOTIONS:
-        parts = sweep_of(model, motion, scene, sweep, choice).run(folder / motion)
-        files[motion] = parts[::-1] if motion == DOWN else parts
-        write_states(files[motion], sweep.speeds, 0.356e-3, folder / f"{motion}.npz")
-        states[motion] = SweptStates(folder / f"{motion}.npz")
-    return states, files
-
-
-@pytest.fixture(scope="module")
-def swept(contact, tmp_path_factory):
-    """Folder with the sweeps of all three motions, and their states."""
-    folder = tmp_path_factory.mktemp("swept")
-    return folder, states_of(contact, folder)[0]
 
 
 def test_the_motion_from_rest_is_the_run_of_the_pipeline(contact, tmp_path):
@@ -137,12 +115,15 @@ def test_carried_motions_are_as_long_as_those_from_rest(contact, given, expected
     }
     params |= {name: to_plain(value) for name, value in plain.items()}
     for motion in MOTIONS:
-        output = SimpleNamespace(response=tmp_path / f"{motion}.nc", states=tmp_path / f"{motion}.npz")
+        output = SimpleNamespace(response=tmp_path / f"{motion}.nc", levels=tmp_path / f"{motion}.npz")
         steps.carry(SimpleNamespace(model=tmp_path / "contact.npz", runs=[]), output, SimpleNamespace(motion=motion, **params))
-    responses = [tmp_path / f"{motion}.nc" for motion in MOTIONS]
-    states = read_states([tmp_path / f"{motion}.npz" for motion in MOTIONS])
-    assert pair_motions(responses, states)["revolutions"].values.tolist() == [expected, expected, 20]
-    assert [states[motion].rms.shape for motion in MOTIONS] == [(3, expected // 2), (3, expected // 2), (3, 10)]
+    responses, levels = ([tmp_path / f"{motion}.{suffix}" for motion in MOTIONS] for suffix in ("nc", "npz"))
+    pair = pair_motions(responses, levels)
+    assert pair["revolutions"].values.tolist() == [expected, expected, 20]
+    run = run_speed(contact, 1310.0, GROWING, CHOICE, (), **KEPT)
+    here = pair.sel(motion=REST, speed=1310.0)
+    counted = run["revolution_rms"][10:]
+    assert (float(here["motion_mean"]), float(here["motion_scatter"])) == (counted.mean(), counted.std())
 
 
 def test_a_carried_motion_ends_as_it_has_settled_where_that_from_rest_does(contact):
@@ -179,16 +160,9 @@ def test_after_a_run_that_diverged_the_sweep_starts_from_rest(contact, tmp_path)
     hopeless = replace(GROWING, divergence_limit=1e-9)
     files = sweep_of(contact, UP, hopeless).run(tmp_path)
     assert [int(read_speed(file)["status"]) for file in files] == 3 * [RunStatus.DIVERGED]
-    write_states(files, SWEEP.speeds, 1e-3, tmp_path / "states.npz")
-    states = SweptStates(tmp_path / "states.npz")
-    assert states.motion(0) is None
-    levels = levels_of(dict.fromkeys(MOTIONS, states))
-    assert not levels.differ.any()
-    run, several = sweep_of(contact, UP, hopeless), dict.fromkeys(MOTIONS, states)
-    rows = dwells_at(1310.0, run, several, DwellChoice(revolutions=100, starts=2))
-    # none of the sweeps' motions is there, and the random ones diverge
-    assert [row["start"] for row in rows] == [RANDOM, RANDOM]
-    assert all(np.isnan(row["revolution_rms"]).all() for row in rows)
+    write_levels(files, SWEEP.speeds, 1e-3, False, tmp_path / "levels.npz")
+    levels = read_levels(3 * [tmp_path / "levels.npz"])
+    assert np.isinf(levels.mean).all() and not levels.differ.any()
 
 
 def levels(mean, scatter=0.0, clearance=0.0):
@@ -198,7 +172,7 @@ def levels(mean, scatter=0.0, clearance=0.0):
     return MotionLevels(speeds, mean, scatter, np.arange(3), motions_differ(mean, scatter, clearance))
 
 
-def test_motions_differ_by_more_than_they_scatter():
+def test_motions_differ_by_more_than_they_scatter(tmp_path):
     """One that diverges differs and is the largest; a worn lining is not compared with a new one."""
     mean = [[1.0, 1.005, 1.5, 1.5, 0.2, np.inf], [1.0, 1.0, 1.0, 1.0, 0.1, np.inf], [1.0, 1.0, 1.0, 1.0, 0.1, np.inf]]
     scatter = 3 * [[0.0, 0.0, 0.2, 0.3, 0.0, 0.0]]
@@ -209,114 +183,20 @@ def test_motions_differ_by_more_than_they_scatter():
     several = levels([[np.inf, 1.0], [0.1, 1.0], [0.1, 1.0]], clearance=0.5)
     assert several.differ.tolist() == [True, False]
     assert (several.high[0], several.low[0], several.worst(slice(0, 1))) == (0, 1, 0)
-    of_motion = {"speeds": np.array([100.0]), "clearance": 0.0}
-    new, worn = (
-        levels_of(
-            {
-                motion: SimpleNamespace(rms=[2 * [rms]], worn=worn, **of_motion)
-                for motion, rms in zip(MOTIONS, (1, 1, 9.0), strict=True)
-            }
-        )
-        for worn in (False, True)
-    )
+    new, worn = [], []
+    for motion, rms in zip(MOTIONS, (1.0, 1.0, 9.0), strict=True):
+        for files, is_worn in ((new, False), (worn, True)):
+            files.append(tmp_path / f"{motion}_{is_worn}.npz")
+            np.savez(files[-1], speed=[100.0], mean=[rms], scatter=[0.0], clearance=0.0, worn=is_worn)
+    new, worn = read_levels(new), read_levels(worn)
     assert (new.differ.tolist(), worn.differ.tolist()) == ([True], [False])
     assert (MOTIONS[new.high[0]], MOTIONS[worn.high[0]]) == (REST, UP)
 
 
-def test_ranges_and_the_speeds_that_are_dwelt_on():
-    up = [1.0, 2.0, 3.0, 2.5, 2.0, 1.0, 5.0]
-    several = levels([up, np.ones(7), np.ones(7)])
+def test_ranges_are_neighbouring_speeds():
+    several = levels([[1.0, 2.0, 3.0, 2.5, 2.0, 1.0, 5.0], np.ones(7), np.ones(7)])
     assert [(part.start, part.stop) for part in several.ranges()] == [(1, 5), (6, 7)]
     assert [several.worst(part) for part in several.ranges()] == [2, 6]
-    assert speeds_dwelt_on(several, DwellChoice(range_speeds=3)) == [105.0, 110.0, 120.0, 130.0]
-    assert speeds_dwelt_on(several, DwellChoice(range_speeds=1, speeds=(111.0,))) == [110.0, 111.0, 130.0]
-    assert speeds_dwelt_on(several, DwellChoice(range_speeds=0)) == []
-
-
-def test_a_motion_is_high_until_it_is_clearly_low():
-    rms = np.concatenate([np.full(200, 4.0), np.full(100, 2.2), np.full(100, 1.8), np.full(200, 1.0)])
-    held = is_high(rms, 4.0, 1.0)
-    assert len(held) == 600 - 20 - 50 + 1
-    # the middle of both is 2; it is left when it falls below the third of the way, 1.59, by the last 20 revolutions
-    assert np.flatnonzero(held)[-1] + 70 == pytest.approx(400, abs=20)
-    assert len(is_high(rms[:60], 4.0, 1.0)) == 0
-
-
-def switching(*parts):
-    return np.concatenate([np.full(length, level) for length, level in parts])
-
-
-HELD, QUIET, FALLS, RISES = (
-    switching(*parts) for parts in ([(500, 4.0)], [(500, 1.0)], [(300, 4.0), (200, 1.0)], [(300, 1.0), (200, 4.0)])
-)
-LASTS, SWITCHES, PASSES, GONE = Lasting.LASTING, Lasting.SWITCHING, Lasting.TRANSIENT, Lasting.DIVERGED
-LOST = np.where(np.arange(500) < 200, 4.0, np.nan)
-
-
-@pytest.mark.parametrize(
-    ("high", "low", "random", "fates", "share", "held", "random_high"),
-    [
-        ([HELD], [QUIET], [HELD, QUIET], (LASTS, LASTS), np.nan, np.inf, 0.5),
-        ([FALLS], [QUIET], [], (PASSES, LASTS), 0.0, 230, np.nan),
-        ([FALLS], [RISES], [], (SWITCHES, SWITCHES), 0.5, 430, np.nan),
-        # gone before it was looked at
-        ([QUIET], [QUIET], [], (PASSES, LASTS), 0.0, 0.0, np.nan),
-        # random starts count from their first change, a second one is the blade's own
-        ([HELD], [QUIET], [FALLS, RISES], (LASTS, LASTS), np.nan, np.inf, 0.5),
-        ([HELD], [QUIET], [switching((150, 1.0), (150, 4.0), (200, 1.0))], (PASSES, LASTS), 0.0, 580, 0.0),
-        # diverged
-        ([LOST], [QUIET], [], (GONE, LASTS), np.nan, np.inf, np.nan),
-        ([np.full(500, np.nan)], [QUIET], [], (GONE, LASTS), np.nan, np.nan, np.nan),
-        ([], [QUIET], [], (GONE, LASTS), np.nan, np.nan, np.nan),
-        ([HELD], [LOST], [], (LASTS, GONE), np.nan, np.inf, np.nan),
-    ],
-)
-def test_motions_last_switch_or_are_transients(high, low, random, fates, share, held, random_high):
-    verdict = judged({HIGH: high, LOW: low, RANDOM: random}, 4.0, 1.0, lined=False)
-    assert (verdict["high"], verdict["low"]) == fates
-    numbers = [verdict[name] for name in ("share_of_time_high", "random_starts_high")]
-    assert numbers == pytest.approx([share, random_high], abs=0.1, nan_ok=True)
-    assert verdict["high_revolutions"] == pytest.approx(held, abs=20, nan_ok=True)
-
-
-def test_on_a_lining_a_motion_lasts_that_is_held_at_the_end():
-    for high, fates, held in ((FALLS, (PASSES, PASSES), 230), (HELD, (LASTS, PASSES), np.inf)):
-        verdict = judged({HIGH: [high], LOW: [RISES], RANDOM: [HELD, FALLS]}, 4.0, 1.0, lined=True)
-        assert (verdict["high"], verdict["low"]) == fates and np.isnan(verdict["share_of_time_high"])
-        assert verdict["high_revolutions"] == pytest.approx(held, abs=20)
-
-
-def test_random_states_are_outside_of_the_casing(contact):
-    simulation = Simulation(contact, 1310.0, DIRECT, CHOICE)
-    problem, states = simulation.problem, random_states(simulation.problem, 30.0, 8, 3)
-    assert len(states) == 8
-    for state in states:
-        nodes = problem.contact.displacement_operator @ state.displacement
-        gap, _ = problem.casing.gaps(problem.casing.clearance, nodes, state.samples * problem.grid.steps_per_sample, 0.0)
-        assert gap.min() >= 0.0
-        assert not state.contact_force.any()
-        finish_revolution(simulation, state)
-        assert state.samples % CHOICE.samples_per_revolution == 0
-    again, fewer, other = (random_states(problem, 30.0, *about)[5].displacement for about in ((8, 3), (6, 3), (6, 4)))
-    np.testing.assert_array_equal(again, fewer)
-    assert not np.array_equal(again, other)
-    # where the sweeps' motions are quiet, random ones are not
-    small, none = (random_states(problem, size, 1, 0)[0] for size in (1e-9, 0.0))
-    assert np.abs(problem.contact.displacement_operator[0] @ small.displacement).max() > 1e-5
-    np.testing.assert_array_equal(small.displacement, none.displacement)
-    inside = replace(DIRECT, casing=replace(DIRECT.casing, clearance=0.0, lobes=8, width=1.0))
-    assert random_states(Simulation(contact, 1310.0, inside, CHOICE).problem, 30.0, 2, 0) == []
-
-
-def test_a_dwell_keeps_the_rms_of_every_revolution(contact):
-    simulation = Simulation(contact, 1310.0, DIRECT, CHOICE)
-    state, again = simulation.start(), simulation.start()
-    kept = dwell(simulation, state, 130)
-    motion = simulation.advance(again, 130).samples[:, [0, 2]].reshape(130, -1, 2)
-    np.testing.assert_allclose(kept["revolution_rms"], np.sqrt(np.sum(np.mean(motion**2, axis=1), axis=1)), rtol=1e-12)
-    far = simulation.start()
-    far.displacement[:] = 10.0
-    assert np.isnan(dwell(simulation, far, 110)["revolution_rms"]).all()
 
 
 @pytest.fixture
@@ -382,54 +262,26 @@ def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions
     assert summary_with_motions(summary, motions_file).loc[1, "second_motion_speed_rad_s"] == 1005.0
 
 
-def dwells(*rows, revolutions=300):
-    levels = {"level_high": 4e-3, "level_low": 1e-3, "lined": 0}
-    kind = KindNumbers(MotionKind.CHAOTIC, 0.5, 0.1, 1.0, 2.0).values
-    found = [
-        {**levels, **kind, "speed": speed, "start": start, "motion": motion, "revolution_rms": np.full(revolutions, level)}
-        for speed, start, motion, level in rows
-    ]
-    dataset = dwell_dataset(found, revolutions)
-    labels = {name: ("dwell", np.array(len(rows) * [label], dtype=object)) for name, label in LABELS.items()}
-    return dataset.assign(labels)
-
-
-LABELS = {"blade": "Ref", "scene": "direct"}
-
-
-def test_tables_of_ranges_and_dwells(motions):
-    dataset = dwells(
-        (1005.0, HIGH, "up", 1e-3), (1005.0, LOW, "rest", 1e-3), (1010.0, HIGH, "up", 4e-3), (1010.0, LOW, "down", 1e-3)
-    )
-    table = dwell_table(dataset)
-    assert list(table.columns) == list(DWELL_COLUMNS)
-    assert table["high"].tolist() == ["transient", "lasting"]
-    assert table["motion_kind_high"].tolist() == ["chaotic", "chaotic"]
-    # what does not recur has no period
-    assert table["period_revolutions_low"].isna().all()
-    ranges = range_table(motions, table)
+def test_table_of_ranges(motions):
+    ranges = range_table(motions)
     assert list(ranges.columns) == list(RANGE_COLUMNS)
     (row,) = ranges.to_dict("records")
     assert (row["from_rad_s"], row["to_rad_s"], row["speeds"], row["speed_rad_s"]) == (1005.0, 1015.0, 3, 1010.0)
     assert row["largest_motion"] == "up"
     assert row["rms_normal_up_m"] == pytest.approx(0.8e-3)
     assert row["rms_normal_rest_m"] == pytest.approx(0.2e-3)
-    assert (row["kind"], row["dwell_speed_rad_s"], row["held_revolutions"]) == ("lasting", 1010.0, np.inf)
-    nothing = range_table(motions, dwell_table(dwells()))
-    assert nothing["kind"].isna().all()
 
 
 def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
-    table = dwell_table(dwells((1010.0, HIGH, "up", 4e-3), (1010.0, LOW, "down", 1e-3)))
     pair = motions.sel(blade="Ref", scene="direct")
-    figure = draw_second_motions(pair, table, "Ref, direct", blade="Ref", scene="direct")
+    figure = draw_second_motions(pair, "Ref, direct", blade="Ref")
     assert len(figure.axes[0].patches) == 3
     # the stress of each motion: its median, and the band up to the largest
     highest = [line.get_ydata().max() for line in figure.axes[1].lines[:6]]
     np.testing.assert_allclose(highest[1::2], 2.0 * np.array(highest[::2]))
     lengths = ["carried up, 100 revolutions", "carried down, 100 revolutions", "from rest, 200 revolutions"]
     assert [line.get_label() for line in figure.axes[0].lines[:3]] == lengths
-    alike = draw_second_motions(pair.assign(revolutions=("motion", 3 * [200])), table, "", blade="Ref", scene="direct")
+    alike = draw_second_motions(pair.assign(revolutions=("motion", 3 * [200])), "", blade="Ref")
     assert [line.get_label() for line in alike.axes[0].lines[:3]] == ["carried up", "carried down", "from rest"]
     rms = xr.Dataset(
         {
@@ -445,34 +297,17 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
 
 
 def test_the_last_line_names_no_motion_without_one_from_rest(tmp_path):
-    table = pd.DataFrame([{name: np.nan for name in RANGE_COLUMNS} | {"largest_motion": "up", "kind": "lasting"}])
+    table = pd.DataFrame([{name: np.nan for name in RANGE_COLUMNS} | {"largest_motion": "up"}])
     table.to_csv(tmp_path / "second_motions.csv", index=False)
-    assert closing(tmp_path) == "1 range of hysteresis, 1 of them with a second motion that lasts"
+    assert closing(tmp_path) == "1 range of hysteresis"
     table.assign(largest_motion=REST).to_csv(tmp_path / "second_motions.csv", index=False)
     assert closing(tmp_path) == "1 range of hysteresis"
-    known = {"blade": "Ref", "scene": "direct", "speed_rad_s": 1195.0, "kind": np.nan, "median_von_mises_up_pa": 2.4e9}
+    known = {"blade": "Ref", "scene": "direct", "speed_rad_s": 1195.0, "median_von_mises_up_pa": 2.4e9}
     table.assign(**known, rms_normal_up_m=1.09e-3, rms_normal_rest_m=3.3e-4).to_csv(
         tmp_path / "second_motions.csv", index=False
     )
     where = "Ref in direct at 1195 rad/s: from rest 0.33, up 1.09 mm (normal rms), 2.40 GPa"
     assert closing(tmp_path) == f"1 range of hysteresis; {where}"
-
-
-def test_a_dwell_begins_in_the_motion_that_it_is_named_after(contact, swept):
-    """The largest at that speed or the smallest, each with its level."""
-    _, states = swept
-    found, place = levels_of(states), 1
-    choice = DwellChoice(revolutions=100, starts=0)
-    high, low = dwells_at(float(found.speeds[place]), sweep_of(contact, UP), states, choice)
-    # judged by the motions of a range that is near, if there is one
-    assert all(np.isfinite(row["level_high"]) == found.differ.any() for row in (high, low))
-    size = {row["start"]: found.mean[MOTIONS.index(row["motion"]), place] for row in (high, low)}
-    assert size == {HIGH: found.mean[:, place].max(), LOW: found.mean[:, place].min()} and size[HIGH] > size[LOW]
-    for row in (high, low):
-        carried = sweep_of(contact, UP)
-        simulation = Simulation(contact, row["speed"], carried.scene.grown, carried.unrecorded_choice)
-        begun = begun_as(carried, states, row["motion"], place, simulation)
-        np.testing.assert_array_equal(row["revolution_rms"], dwell(*begun, 100)["revolution_rms"])
 
 
 @pytest.mark.parametrize(
@@ -489,41 +324,14 @@ def test_a_dwell_begins_in_the_motion_that_it_is_named_after(contact, swept):
         ("{ from_rad_s: 1000, to_rad_s: 1100, blades: [Reff] }", "second_motions.blades"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, revolutions: 1 }", "second_motions.revolutions: found 1"),
         ("{ revolutions: 50 }", "second_motions: found no speeds; allowed: from_rad_s and to_rad_s"),
-        ("{ from_rad_s: 1000, to_rad_s: 1100, dwell: { speeds_rad_s: [0.1] } }", "0.1 rad/s; allowed: speeds of the sweeps"),
         ("{ from_rad_s: 1.5, to_rad_s: 1100 }", "second_motions.from_rad_s: found 1.5 rad/s; allowed: from the step on, 5"),
-        ("{ from_rpm: 10, to_rpm: 9000, step_rpm: 10 }", "second_motions.from_rpm: found 1.0472 rad/s, a revolution of"),
+        ("{ from_rpm: 0.5, to_rpm: 9000, step_rpm: 0.5 }", "second_motions.from_rpm: found 0.0523599 rad/s, a revolution of"),
     ],
 )
 def test_what_cannot_be_swept_is_refused(root, section, message):
     with pytest.raises(ConfigError) as error:
         read_settings(root, command_line_document({"second_motions": yaml.safe_load(section)}))
     assert message in str(error.value) and "\n" not in str(error.value)
-
-
-def test_interrupted_dwells_go_on_from_the_next_speed(contact, swept, tmp_path, monkeypatch):
-    write_contact_model(contact, tmp_path / "contact.npz")
-    choice = DwellChoice(revolutions=100, range_speeds=0, starts=1, speeds=(1300.0, 1310.0))
-    plain = {"scene": GROWING, "choice": CHOICE, "sweep": SWEEP, "dwell": choice}
-    params = SimpleNamespace(code="", provenance={}, **{name: to_plain(value) for name, value in plain.items()})
-    files = SimpleNamespace(model=tmp_path / "contact.npz", states=[swept[0] / f"{motion}.npz" for motion in MOTIONS])
-    asked, most = [], 3
-
-    def dwells(speed, *of):
-        if len(asked) == most:
-            raise KeyboardInterrupt
-        asked.append(speed)
-        return dwells_at(speed, *of)
-
-    monkeypatch.setattr(steps, "dwells_at", dwells)
-    steps.dwell(files, SimpleNamespace(dwells=tmp_path / "whole.nc"), params)
-    output = SimpleNamespace(dwells=tmp_path / "parts.nc")
-    with pytest.raises(KeyboardInterrupt):
-        steps.dwell(files, output, params)
-    most = None
-    steps.dwell(files, output, params)
-    assert asked == [1300.0, 1310.0, 1300.0, 1310.0]
-    xr.testing.assert_equal(*(read_dataset(tmp_path / f"{name}.nc") for name in ("whole", "parts")))
-    assert not list(tmp_path.glob("*.parts"))
 
 
 @pytest.mark.slow
@@ -546,14 +354,3 @@ def test_sweeps_leave_their_motion_at_the_folds(tmp_path):
     # just above the fold the motion falls slowly
     assert speeds[differ][-1] == pytest.approx(high, abs=10.0)
     assert np.all(differ[(speeds > low + 5.0) & (speeds < high - 5.0)])
-
-
-def test_a_dwell_on_a_new_lining_goes_on_as_the_sweep_did(contact, tmp_path):
-    """Its first revolutions are those of the sweep at that speed: the motion belongs to the lining that it has worn."""
-    carried, (states, files) = sweep_of(contact, UP, LINED), states_of(contact, tmp_path, LINED)
-    simulation = Simulation(contact, 1310.0, carried.scene.grown, carried.unrecorded_choice)
-    for motion in MOTIONS:
-        begun, state = begun_as(carried, states, motion, 1, simulation)
-        rms = dwell(begun, state, 100)["revolution_rms"]
-        expected = read_speed(files[motion][1])["revolution_rms"]
-        np.testing.assert_allclose(rms[: len(expected)], expected, rtol=1e-12, err_msg=motion)

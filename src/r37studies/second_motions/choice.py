@@ -1,4 +1,4 @@
-"""Numbers of the sweeps and of the dwells."""
+"""Numbers of the sweeps."""
 
 from dataclasses import dataclass
 from typing import Annotated
@@ -41,16 +41,3 @@ class SweepChoice:
     def speeds(self) -> list[float]:
         """All speeds (rad/s), ascending."""
         return spaced(self.first, self.last, self.step)
-
-
-@dataclass(frozen=True)
-class DwellChoice:
-    """How motions are told apart that last, that go, and between which the blade switches."""
-
-    revolutions: Annotated[int, Key("Revolutions of each dwell", ge=100, le=200_000)] = 3000
-    range_speeds: Annotated[
-        int, Key("Speeds of each range: that of the largest difference, others spread evenly", ge=0, le=1000)
-    ] = 3
-    starts: Annotated[int, Key("Random states outside of the casing from which more dwells start", ge=0, le=1000)] = 5
-    seed: Annotated[int, Key("Seed of the random states", ge=0, le=2**31)] = 0
-    speeds: tuple[float, ...] = ()

@@ -1,21 +1,18 @@
-"""second_motions.nc, and the dwells of a blade and scene."""
+"""second_motions.nc."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import dataset_of, read_dataset
-from r37core.base.variable import Variable, about
+from r37core.base.dataset_file import read_dataset
+from r37core.base.variable import about
 from r37core.results.regions import judged
-from r37core.results.variables import AXES
 from r37core.time_integration.speed_arrays import OF_KIND
 
 from .choice import MOTIONS
-from .states import SweptStates, levels_of
+from .levels import read_levels
 
 _JOINED = (
     *(f"{kind}_{direction}" for kind in ("rms", "peak") for direction in ("normal", "radial", "tangential")),
@@ -35,8 +32,8 @@ _OF_ALL = ("yield_stress", "lined")
 """Variables that are the same at all speeds."""
 
 
-def pair_motions(responses: Sequence[Path | str], states: Mapping[str, SweptStates]) -> xr.Dataset:
-    """The three sweeps of a blade and scene, over (motion, speed), by their responses, in the order of MOTIONS, and states.
+def pair_motions(responses: Sequence[Path | str], levels_files: Sequence[Path | str]) -> xr.Dataset:
+    """The three sweeps of a blade and scene, over (motion, speed), by their responses and levels, in the order of MOTIONS.
 
     `motion_mean` and `motion_scatter` (m): of the rms of a revolution, normal and tangential together; `differ`, over speed: 1
     where the motions do; `revolutions`: of each motion. Raises InputFileError.
@@ -48,7 +45,7 @@ def pair_motions(responses: Sequence[Path | str], states: Mapping[str, SweptStat
         motions.append(response[[name for name in (*_JOINED, *_OF_ALL) if name in response]].reset_coords(drop=True))
     over_motions = [str(name) for name in motions[0].data_vars if name not in _OF_ALL]
     pair = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=over_motions)
-    levels, over = levels_of(states), ("motion", "speed")
+    levels, over = read_levels(levels_files), ("motion", "speed")
     mean = np.where(np.isinf(levels.mean), np.nan, levels.mean)
     compared = np.isin(range(len(MOTIONS)), levels.compared).astype(float)
     differ = about("1", "1 where two of the compared motions differ by more than they scatter")
@@ -59,25 +56,3 @@ def pair_motions(responses: Sequence[Path | str], states: Mapping[str, SweptStat
         compared=("motion", compared, about("1", "1 of motions that are compared, 0 of that on another lining")),
         differ=("speed", levels.differ.astype(float), differ),
     )
-
-
-OF_DWELLS = {
-    "start": Variable((), "1", "where the dwell starts: in the high, the low or a random motion", "O"),
-    "motion": Variable((), "1", "motion of the sweeps that it starts in, or number of the state", "O"),
-    "speed": Variable((), "rad s-1", "angular speed of the rotor"),
-    "level_high": Variable((), "m", "level of the largest motion of the sweeps there: mean rms of a revolution"),
-    "level_low": Variable((), "m", "level of the smallest motion of the sweeps there"),
-    "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "i1"),
-    **OF_KIND,
-    "revolution_rms": Variable(
-        ("revolution",), "m", "rms of the leading edge's motion, normal and tangential together, in each revolution", "f4"
-    ),
-}
-
-
-def dwell_dataset(dwells: Sequence[Mapping[str, Any]], revolutions: int) -> xr.Dataset:
-    """Dataset of the dwells of one blade and scene, a row each."""
-    values: dict[str, Any] = {name: [dwell[name] for dwell in dwells] for name in OF_DWELLS}
-    values["revolution_rms"] = np.reshape(values["revolution_rms"], (-1, revolutions))
-    values["revolution"] = np.arange(1, revolutions + 1)
-    return dataset_of(OF_DWELLS, values, {"revolution": replace(AXES["revolution"], dtype="i8")}, {}, ("dwell",))

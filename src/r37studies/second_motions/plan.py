@@ -20,10 +20,8 @@ from .columns import SECOND_MOTION, WORST_MOTION
 from .section import SECTION, SecondMotionSection, pairs_of
 
 RESPONSE = "<results>/{blade}/{scene}/second_motions_{motion}.nc"
-STATES = "<results>/{blade}/{scene}/second_motions_{motion}.npz"
-DWELLS = "<results>/{blade}/{scene}/second_motions_dwells.nc"
+LEVELS = "<results>/{blade}/{scene}/second_motions_{motion}.npz"
 DATASET, TABLE = "<results>/second_motions.nc", "<results>/second_motions.csv"
-ALL_DWELLS, DWELL_TABLE = "<results>/second_motions_dwells.nc", "<results>/second_motions_dwells.csv"
 
 KEPT = ("stress", "static_stress", "wear", "energy", "casing", "motion_kind")
 """Results of a scene that carried sweeps keep, too."""
@@ -35,7 +33,7 @@ def motion_keys(pairs: Iterable[tuple[str, str]]) -> paths.Wildcards:
 
 
 def parameters(sweep: Sweep) -> dict[str, Any]:
-    """Parameters of sweeps and dwells alike."""
+    """Scene, time integration and speeds of the sweeps."""
     settings, section = sweep.settings, sweep.settings.section(SECTION)
     return {
         "scene": sweep.plain_scene,
@@ -62,10 +60,10 @@ def results(sweep: Sweep, wildcards: Any) -> list[str]:
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The sweeps and dwells, and what is made of them."""
+    """The sweeps, and what is made of them."""
     pairs = pairs_of(sweep.settings)
-    own: dict[str, paths.Wildcards] = dict.fromkeys((RESPONSE, STATES), motion_keys(pairs)) | {DWELLS: paths.run_keys(pairs)}
-    return own | dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), [{}] if pairs else [])
+    own: dict[str, paths.Wildcards] = dict.fromkeys((RESPONSE, LEVELS), motion_keys(pairs))
+    return own | dict.fromkeys((DATASET, TABLE), [{}] if pairs else [])
 
 
 MOST_SPEEDS = 20_000
@@ -81,8 +79,8 @@ def can_be_swept(settings: Settings) -> None:
     for key, value, allowed in _refusals(settings, section):
         raise settings.document.refusal(value, allowed, *path, *key)
     sweep, scenes = section.sweep(), dict.fromkeys(scene for _, scene in pairs_of(settings))
-    longest = max(sweep.revolutions or 0, section.dwell.revolutions)
-    runs = [length_of_run(settings, name, sweep.first, max(longest, settings.scenes[name].revolutions)) for name in scenes]
+    lengths = {name: max(sweep.revolutions or 0, settings.scenes[name].revolutions) for name in scenes}
+    runs = [length_of_run(settings, name, sweep.first, revolutions) for name, revolutions in lengths.items()]
     if runs:
         slow_run_can_be_done(max(runs, key=lambda run: run.steps), settings, (*path, section.end_keys[0]))
 
@@ -104,26 +102,16 @@ def _refusals(settings: Settings, section: SecondMotionSection) -> Iterator[tupl
         yield (first_key,), f"{sweep.first:g} rad/s", allowed
     if sweep.speeds[-1] > highest:
         yield (last_key,), f"{sweep.speeds[-1]:g} rad/s", f"up to structure.maximum_speed_rad_s, {highest:g}"
-    for number, speed in enumerate(section.dwell.speeds_rad_s):
-        if not sweep.first <= speed <= sweep.last:
-            between = f"speeds of the sweeps, {sweep.first:g} to {sweep.last:g}"
-            yield ("dwell", "speeds_rad_s", number), f"{speed:g} rad/s", between
-
-
-_RANGES = 2
-"""Ranges of hysteresis of a blade and scene, as a rule."""
 
 
 def further_runs(settings: Settings) -> dict[Pair, Runs]:
-    """Sweeps and dwells of each blade and scene; how many ranges are dwelt on, the sweeps show."""
+    """Sweeps of each blade and scene."""
     section, runs = settings.section(SECTION), {}
     for blade, scene in pairs_of(settings):
-        sweep, dwell, usual = section.sweep(), section.dwell, settings.scenes[scene].revolutions
+        sweep, usual = section.sweep(), settings.scenes[scene].revolutions
         known = set(map(rounded, settings.speed_plans[blade, scene].certain)) & set(sweep.speeds)
         number = len(MOTIONS) * len(sweep.speeds) - len(known)
-        dwells = (2 + dwell.starts) * (len(dwell.speeds_rad_s) + _RANGES * dwell.range_speeds)
-        length = number * (sweep.revolutions or usual) + dwells * dwell.revolutions
-        runs[blade, scene] = Runs(number, length=length / usual)
+        runs[blade, scene] = Runs(number, length=number * (sweep.revolutions or usual) / usual)
     return runs
 
 
@@ -152,11 +140,11 @@ EXTENSION = Extension(
             name="second_motions_{blade}__{scene}",
             runs=lambda sweep: paths.run_keys(pairs_of(sweep.settings)),
             draw="r37studies.second_motions.figures.draw_second_motions",
-            files={"motions": DATASET, "dwells": DWELL_TABLE},
+            files={"motions": DATASET},
             label="second motions",
             caption="Blade {blade} in scene {scene}, carried up and down the speeds, and from rest. Motion of the leading "
             "edge, normal and tangential together, with its scatter over the revolutions. Shaded: the motions differ by more "
-            "than they scatter. Then the median stress, the largest motion's share of a long time, and Lyapunov exponents.",
+            "than they scatter. Below: stress, median to largest.",
         ),
     ),
     remarks=remarks,

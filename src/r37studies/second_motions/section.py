@@ -4,18 +4,11 @@ from itertools import product
 
 from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.declaring import declared_by, si_form
-from r37core.config.section import AllOrNames, ExtensionSection, Section, Speed, option, refused
+from r37core.config.section import AllOrNames, ExtensionSection, Section, option, refused
 
-from .choice import STEP, DwellChoice, SweepChoice
+from .choice import STEP, SweepChoice
 
 _FIRST, _LAST = ("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm")
-
-
-@declared_by(DwellChoice)
-class DwellSection(Section):
-    """Dwells at speeds at which motions differ."""
-
-    speeds_rad_s: list[Speed] = option("More speeds that are dwelt on", [])
 
 
 @declared_by(SweepChoice)
@@ -26,7 +19,6 @@ class SecondMotionSection(Section):
 
     blades: AllOrNames = option("Blades that are swept", "all")
     scenes: AllOrNames = option("Scenes that are swept; by default those without a rotor", "all")
-    dwell: DwellSection = option("Dwells at speeds at which motions differ", DwellSection())
 
     def _check(self) -> None:
         if self.model_dump(exclude_defaults=True) and len(self.end_keys) < 2:
@@ -51,15 +43,11 @@ class SecondMotionSection(Section):
         has_step = self.step_rad_s is not None or self.step_rpm is not None
         return si_form(SweepChoice, self, **({} if has_step else {"step": STEP}))
 
-    def dwells(self) -> DwellChoice:
-        """The dwells that are asked for."""
-        return si_form(DwellChoice, self.dwell, speeds=tuple(self.dwell.speeds_rad_s))
-
 
 SECTION = ExtensionSection(
     "second_motions",
     SecondMotionSection,
-    option("Sweeps up and down the speeds, and what becomes of the motions they find", SecondMotionSection()),
+    option("Sweeps up and down the speeds, whose motions may differ from those from rest", SecondMotionSection()),
 )
 
 

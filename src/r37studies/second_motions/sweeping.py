@@ -60,11 +60,6 @@ class CarriedSweep(BladeRuns):
         choice, revolutions = self.stepped_up_to(self.sweep.speeds[-1], self.choice), self.sweep.revolutions
         return (replace(choice, revolutions=revolutions, until_settled=False) if revolutions else choice).recorded
 
-    @property
-    def unrecorded_choice(self) -> IntegrationChoice:
-        """The same, with nothing recorded but the motion."""
-        return replace(self.carried_choice, snapshot_revolutions=0, snapshots_per_revolution=0)
-
     def numbers(self, run: FinishedRun) -> dict[str, np.ndarray]:
         """Numbers of a run, with the wear that is carried on."""
         numbers = super().numbers(run)

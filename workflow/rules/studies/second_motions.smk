@@ -1,4 +1,4 @@
-# Motions that a start from rest does not show: a job sweeps up or down with the state carried on, another one dwells.
+# Motions that a start from rest does not show: a job sweeps up or down with the state carried on.
 from r37studies.second_motions import plan as motions_plan
 
 motion_pairs = motions_plan.pairs_of(settings)
@@ -11,7 +11,7 @@ use rule step as second_motion_sweep with:
         runs=lambda wildcards: motions_plan.finished_runs(sweep, wildcards),
     output:
         response=motions_plan.RESPONSE,
-        states=motions_plan.STATES,
+        levels=motions_plan.LEVELS,
     log:
         "<logs>/{blade}/{scene}/second_motions_{motion}.log",
     wildcard_constraints:
@@ -27,31 +27,13 @@ use rule step as second_motion_sweep with:
         provenance=sweep.provenance,
 
 
-use rule step as second_motion_dwells with:
-    input:
-        model=sweep.contact_model,
-        states=expand(motions_plan.STATES, motion=motions_plan.MOTIONS, allow_missing=True),
-    output:
-        dwells=motions_plan.DWELLS,
-    log:
-        "<logs>/{blade}/{scene}/second_motions_dwells.log",
-    params:
-        **step("r37studies.second_motions.steps.dwell"),
-        **motions_plan.parameters(sweep),
-        dwell=to_plain(settings.section(motions_plan.SECTION).dwells()),
-        provenance=sweep.provenance,
-
-
 use rule step as second_motions_tables with:
     input:
         responses=paths.filled({motions_plan.RESPONSE: motion_files}),
-        states=paths.filled({motions_plan.STATES: motion_files}),
-        dwells=paths.filled({motions_plan.DWELLS: paths.run_keys(motion_pairs)}),
+        levels=paths.filled({motions_plan.LEVELS: motion_files}),
     output:
         motions=motions_plan.DATASET,
-        dwells=motions_plan.ALL_DWELLS,
         ranges=shown(motions_plan.TABLE, SOURCE / "r37studies/second_motions/report.rst", TOGETHER, "second motions"),
-        verdicts=motions_plan.DWELL_TABLE,
     log:
         "<logs>/second_motions_tables.log",
     params:

@@ -1,6 +1,6 @@
-"""States at the end of each speed of a sweep, in a file for the motions that go on from them, and where motions differ."""
+"""Level of each motion over the speeds of its sweep, and where motions differ."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
@@ -10,7 +10,6 @@ import xarray as xr
 from scipy.ndimage import find_objects, label
 
 from r37core.base.io import atomic_write, readable
-from r37core.time_integration.carrying import END_WEAR, CarriedMotion, motion_names
 from r37core.time_integration.settling import SAME, SCATTERS
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
@@ -18,52 +17,24 @@ from r37core.time_integration.status import RunStatus
 from .choice import MOTIONS, REST
 
 
-class SweptStates:
-    """Motions at the end of each speed of a sweep, from its file; `speeds` (rad/s) ascend.
+def write_levels(files: Sequence[Path], speeds: Sequence[float], clearance: float, worn: bool, file: Path | str) -> None:
+    """Write mean and scatter of the rms at all speeds (rad/s, ascending) of a sweep, from the files of each.
 
-    `rms` (m): of the revolutions that count, shape (speeds, revolutions); `clearance` (m): of the scene; `worn`: whether the
-    sweep carries a worn lining.
+    `clearance` (m): of the scene; `worn`: whether the sweep carries a worn lining.
     """
-
-    def __init__(self, file: Path | str):
-        with readable(file), np.load(file) as stored:
-            self._arrays = dict(stored)
-            self.speeds, self.rms, self.clearance = (self._arrays[name] for name in ("speed", "revolution_rms", "clearance"))
-        self.worn = END_WEAR in self._arrays
-
-    def motion(self, place: int) -> CarriedMotion | None:
-        """Motion at the end of the speed at this place; None where it diverged."""
-        return CarriedMotion.at_end({name: self._arrays[name][place] for name in ("status", *motion_names(self._arrays))})
-
-
-def read_states(files: Sequence[Path | str]) -> dict[str, SweptStates]:
-    """States of all motions of a blade and scene, in the order of MOTIONS, by motion."""
-    return {motion: SweptStates(file) for motion, file in zip(MOTIONS, files, strict=True)}
-
-
-def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: float, file: Path | str) -> None:
-    """Write the states of all speeds (rad/s, ascending) of a sweep, from the files of each, and the scene's `clearance` (m).
-
-    Wear of carried linings is in single precision.
-    """
-    runs = []
+    counted = []
     for each in files:
         run = read_speed(each)
-        # without its other numbers: those of all speeds are in memory together
-        kept = {name: run[name] for name in ("status", *motion_names(run))}
         # of the revolutions in the run's statistic; NaN of one that diverged, and where it ended before there were as many
-        end, counted = int(run["statistic_end"]), np.full(int(run["statistic_revolutions"]), np.nan)
+        rms = np.full(int(run["statistic_revolutions"]), np.nan)
         if int(run["status"]) == RunStatus.COMPLETED:
-            last = run["revolution_rms"][:end][-len(counted) :]
-            counted[len(counted) - len(last) :] = last
-        runs.append(kept | {"revolution_rms": counted})
-    arrays = {name: np.array([run[name] for run in runs]) for name in runs[0]}
-    if END_WEAR in arrays:
-        arrays[END_WEAR] = arrays[END_WEAR].astype(np.float32)
-    rms = arrays.pop("revolution_rms")
+            last = run["revolution_rms"][: int(run["statistic_end"])][-len(rms) :]
+            rms[len(rms) - len(last) :] = last
+        counted.append(rms)
+    known = np.ma.masked_invalid(counted)
+    levels = {"mean": known.mean(axis=1).filled(np.inf), "scatter": known.std(axis=1).filled(0.0)}
     with atomic_write(file) as partial:
-        arrays |= {"speed": np.array(speeds), "revolution_rms": rms, "clearance": np.array(clearance)}
-        np.savez_compressed(partial, allow_pickle=False, **arrays)
+        np.savez(partial, allow_pickle=False, speed=speeds, clearance=clearance, worn=worn, **levels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,11 +98,13 @@ def motions_differ(mean: np.ndarray, scatter: np.ndarray, clearance: float) -> n
     return differ
 
 
-def levels_of(states: Mapping[str, SweptStates]) -> MotionLevels:
-    """Levels of the motions of a blade and scene, by motion."""
-    first, counted = states[MOTIONS[0]], [np.ma.masked_invalid(states[motion].rms) for motion in MOTIONS]
-    mean = np.array([part.mean(axis=1).filled(np.inf) for part in counted])
-    scatter = np.array([part.std(axis=1).filled(0.0) for part in counted])
-    compared = np.flatnonzero([not (first.worn and motion == REST) for motion in MOTIONS])
-    differ = motions_differ(mean[compared], scatter[compared], float(first.clearance))
-    return MotionLevels(first.speeds, mean, scatter, compared, differ)
+def read_levels(files: Sequence[Path | str]) -> MotionLevels:
+    """Levels of the motions of a blade and scene, from the file of each, in the order of MOTIONS."""
+    sweeps = []
+    for file in files:
+        with readable(file), np.load(file) as stored:
+            sweeps.append(dict(stored))
+    first, (mean, scatter) = sweeps[0], (np.array([each[name] for each in sweeps]) for name in ("mean", "scatter"))
+    compared = np.flatnonzero([not (first["worn"] and motion == REST) for motion in MOTIONS])
+    differ = motions_differ(mean[compared], scatter[compared], float(first["clearance"]))
+    return MotionLevels(first["speed"], mean, scatter, compared, differ)
