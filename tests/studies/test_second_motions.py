@@ -27,7 +27,7 @@ from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import OF_RUNS, run_speed
 from r37core.time_integration.status import RunStatus
 from r37studies.second_motions import steps
-from r37studies.second_motions.added import ranking_with_motions, summary_with_motions
+from r37studies.second_motions.added import ranking_with_motions
 from r37studies.second_motions.choice import DOWN, MOTIONS, REST, UP, SweepChoice
 from r37studies.second_motions.dataset import pair_motions
 from r37studies.second_motions.figures import draw_second_motions
@@ -245,21 +245,6 @@ def test_the_worst_motion_stands_in_the_ranking(motions_file):
         longer = ranking_with_motions(ranking.assign(length_most_revolutions_rad_s=from_rest), motions_file)
         assert longer[lengths[1]].tolist() == pytest.approx([worst, np.nan], nan_ok=True)
     assert table["carried_revolutions"].tolist() == pytest.approx([100.0, np.nan], nan_ok=True)
-
-
-def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions, motions_file):
-    summary = pd.DataFrame({"blade": "Ref", "scene": "direct", "peak_speed_rad_s": [500.0, 990.0, 1100.0]})
-    table = summary_with_motions(summary, motions_file)
-    assert table["second_motion"].tolist() == ["", "up", ""]
-    assert table.loc[1, "second_motion_speed_rad_s"] == 1010.0
-    assert table.loc[1, "second_motion_rms_normal_m"] == pytest.approx(0.8e-3)
-    assert table.loc[1, "second_motion_rest_rms_normal_m"] == pytest.approx(0.2e-3)
-    far = summary_with_motions(summary.assign(peak_speed_rad_s=[500.0, 700.0, 1400.0]), motions_file)
-    assert set(far["second_motion"]) == {""}
-    # one that diverges is above all
-    motions["motion_mean"].loc[{"blade": "Ref", "motion": UP, "speed": 1005.0}] = np.nan
-    motions.to_netcdf(motions_file)
-    assert summary_with_motions(summary, motions_file).loc[1, "second_motion_speed_rad_s"] == 1005.0
 
 
 def test_table_of_ranges(motions):

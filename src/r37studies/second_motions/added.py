@@ -1,4 +1,4 @@
-"""Columns of second motions in summary.csv and ranking.csv: the worst of all motions at each speed."""
+"""Columns of second motions in ranking.csv: the worst of all motions at each speed."""
 
 from pathlib import Path
 
@@ -13,10 +13,7 @@ from r37core.results.other_motions import swept
 from r37core.time_integration.status import RunStatus
 
 from .choice import REST
-from .columns import SECOND_MOTION, WORST_MOTION
-
-WITHIN = 0.06
-"""Distance of a speed from the peak of an interaction, as a share of it, within which another motion belongs to that."""
+from .columns import WORST_MOTION
 
 
 def ranking_with_motions(ranking: pd.DataFrame, file: Path | str) -> pd.DataFrame:
@@ -52,29 +49,3 @@ def worst_exceedance(pair: xr.Dataset) -> Exceedance:
     diverged = pair["status"] == RunStatus.DIVERGED
     shares = pair["share_of_revolutions_above_yield"].where(~diverged, 1.0).max("motion")
     return Exceedance(pair["speed"].values, shares.values, not is_lined(pair))
-
-
-def summary_with_motions(summary: pd.DataFrame, file: Path | str) -> pd.DataFrame:
-    """The summary with SECOND_MOTION: the motion of each interaction that is most above that from rest, where they differ.
-
-    `file`: dataset of the motions. Speeds belong to the interaction whose peak is nearest, up to WITHIN of it.
-    """
-    motions, table, (name, *numbers) = read_dataset(file), summary.copy(), names(SECOND_MOTION)
-    table[name] = pd.Series("", table.index, dtype=object)
-    table[numbers] = np.nan
-    for (blade, scene), rows in table.groupby(["blade", "scene"], sort=False):
-        pair, peaks = swept(motions.sel(blade=blade, scene=scene)), rows["peak_speed_rad_s"]
-        mean = pair["motion_mean"].transpose("motion", "speed").values
-        rest = mean[pair["motion"].values == REST]
-        # by ratio, as ranges have it; one that diverged is above all others, and nothing is above it
-        above = np.nan_to_num(mean, nan=np.inf) / np.maximum(np.nan_to_num(rest, nan=np.inf), np.finfo(float).tiny)
-        above = np.where(np.isnan(rest), 0.0, above)
-        for place in np.argsort(above.max(axis=0, initial=0.0), kind="stable"):
-            speed, motion = float(pair["speed"][place]), int(np.argmax(above[:, place]))
-            nearest = (peaks - speed).abs().fillna(np.inf).idxmin()
-            if pair["differ"][place] and above[motion, place] > 1.0 and abs(peaks[nearest] - speed) <= WITHIN * peaks[nearest]:
-                rms = pair["rms_normal"].isel(speed=place)
-                values = (str(pair["motion"].values[motion]), speed, float(rms[motion]), float(rms.sel(motion=REST)))
-                # the last one is the largest
-                table.loc[nearest, [name, *numbers]] = values
-    return table

@@ -1,13 +1,6 @@
-"""Columns that second motions add to summary.csv and ranking.csv. Light: the workflow imports it."""
+"""Columns that second motions add to ranking.csv. Light: the workflow imports it."""
 
 from r37core.results.columns import Column
-
-SECOND_MOTION = (
-    Column("second_motion", "motion, carried `up` or `down`, that is most above that from rest"),
-    Column("second_motion_speed_rad_s", "speed of the second motion"),
-    Column("second_motion_rms_normal_m", "normal rms of the second motion"),
-    Column("second_motion_rest_rms_normal_m", "normal rms from rest at that speed"),
-)
 
 WORST_MOTION = (
     Column("length_most_revolutions_rest_rad_s", "length above yield in most revolutions from rest, at the speeds of sweeps"),

@@ -16,7 +16,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.speed_run import OF_RUNS
 
 from .choice import MOTIONS, REST
-from .columns import SECOND_MOTION, WORST_MOTION
+from .columns import WORST_MOTION
 from .section import SECTION, SecondMotionSection, pairs_of
 
 RESPONSE = "<results>/{blade}/{scene}/second_motions_{motion}.nc"
@@ -129,10 +129,7 @@ EXTENSION = Extension(
     checks=(can_be_swept,),
     runs=further_runs,
     targets=targets,
-    columns=(
-        AddedColumns("summary", DATASET, "r37studies.second_motions.added.summary_with_motions", SECOND_MOTION),
-        AddedColumns("ranking", DATASET, "r37studies.second_motions.added.ranking_with_motions", WORST_MOTION),
-    ),
+    columns=(AddedColumns("ranking", DATASET, "r37studies.second_motions.added.ranking_with_motions", WORST_MOTION),),
     offers={"motions": DATASET},
     figures=(
         Figure(
