@@ -143,4 +143,3 @@ def test_plan_of_exports(three):
     assert exports.orientation(fan)["length_unit"] == "mm"
     assert exports.orientation(SimpleNamespace(blade="Ref")) == to_plain(OURS)
     assert exports.choice["mode_speeds"] == (0.0, 2000.0)
-    assert set(exports.matrix_files(fan)) == {"rom"}

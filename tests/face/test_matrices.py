@@ -11,6 +11,7 @@ import pandas as pd
 import pytest
 import scipy.linalg as la
 from defaults import Orientation
+from full_matrices import write_full_matrices
 from import_defaults import MatricesSource, refused
 from refusal_tables import pattern_of, refusal_rows
 from scipy.io import mmwrite
@@ -26,7 +27,7 @@ from r37core.rom.reduction_choice import BoundaryError
 from r37imports.importing.matrices_in import import_matrices, wording
 from r37imports.importing.matrix_file import read_matrix
 from r37imports.refusal import MeshWarning
-from r37studies.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
+from r37studies.exports.matrices_out import write_reduced_matrices
 
 
 @pytest.fixture(scope="module")
@@ -59,11 +60,10 @@ def write_small(folder, table, **changes):
 
 
 @pytest.fixture(scope="module")
-def on_patches(mesh, matrices, patched, tmp_path_factory):
+def on_patches(matrices, patched, tmp_path_factory):
     """Full matrices of the blade on patches, with all nodes of its edge in boundary.csv."""
     folder = tmp_path_factory.mktemp("matrices")
-    np.testing.assert_array_equal(table_nodes(patched, "pressure_edge").nodes, mesh.node_set("tip_pressure_edge"))
-    write_full_matrices(matrices, patched, "pressure_edge", SPEEDS, folder)
+    write_full_matrices(matrices, patched.tip_lines["pressure_edge"], SPEEDS, folder)
     return folder
 
 

@@ -7,11 +7,9 @@ import pytest
 import pyvista
 from box_operator import box_operator
 from defaults import Orientation
+from full_matrices import write_full_matrices
 
-from r37core.config import ConfigError, command_line_document
-from r37core.product.extensions import read_settings
 from r37core.time_integration.speed_file import write_speed
-from r37studies.exports.matrices_out import write_full_matrices
 from r37studies.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 
 NAMES = {"M.mtx", "K_0.mtx", "K_1000.mtx", "K_2000.mtx", "boundary.csv"}
@@ -21,7 +19,7 @@ FOREIGN = Orientation("mm", (0.6, 0.8, 0), (0, 0, 1), "positive", (5.0, 6.0, 7.0
 @pytest.fixture(scope="module")
 def directory(matrices, model, tmp_path_factory):
     folder = tmp_path_factory.mktemp("matrices")
-    write_full_matrices(matrices, model, "pressure_edge", (0.0, 1000.0, 2000.0), folder)
+    write_full_matrices(matrices, model.contact_nodes, (0.0, 1000.0, 2000.0), folder)
     return folder
 
 
@@ -82,9 +80,3 @@ def test_results_in_the_axes_of_another_program(whole, mesh, steel, instant, tmp
     components = np.stack([back[:, a, b] for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))], axis=1)
     np.testing.assert_allclose(components, ours.point_data["stress"], atol=1e-6 * np.abs(components).max())
     assert theirs.compute_cell_sizes()["Volume"].min() > 0.0
-
-
-def test_full_matrices_are_those_of_linear_blades(root):
-    changes = {"structure": {"kinematics": "rotating"}, "exports": {"full_matrices": True}}
-    with pytest.raises(ConfigError, match="kinematics: linear"):
-        read_settings(root, command_line_document(changes))

@@ -4,13 +4,11 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from r37core.base.plain import to_plain
-from r37core.config import Settings
 from r37core.config.section import ExtensionSection, Section, option
 from r37core.fem.orientation import OURS
 from r37core.plans import paths
 from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
-from r37core.rom.reduction_choice import LINEAR
 
 FORMATS = ("msh", "vtu", "inp")
 """Suffixes of the files of a mesh; .inp is a complete CalculiX or Abaqus deck."""
@@ -23,7 +21,6 @@ class ExportSection(Section):
     stress_speeds: Literal["worst", "all"] = option(
         "Speeds whose worst instant is written; worst: that of the largest stress of each blade and scene", "worst"
     )
-    full_matrices: bool = option("Whether matrices of all nodes (hundreds of MB) replace the reduced ones", False)
 
 
 SECTION = ExtensionSection("exports", ExportSection, ExportSection())
@@ -55,14 +52,6 @@ class Exports:
         definition = self.sweep.settings.blades[wildcards.blade].definition
         return to_plain(getattr(definition, "orientation", OURS))
 
-    def matrix_files(self, wildcards: Any) -> dict[str, str]:
-        """Files that matrices are written from: the reduced model, and the mesh where full ones are wanted."""
-        tip_line = self.sweep.settings.structure.boundary.tip_line
-        files = {"rom": paths.REDUCED_MODEL.format(blade=wildcards.blade, tip_line=tip_line)}
-        if self.sweep.settings.section(SECTION).full_matrices and wildcards.blade in self.sweep.meshed_blades:
-            files |= {"mesh": paths.MESH.format(blade=wildcards.blade)}
-        return files
-
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Files and folders that this run's configuration asks for."""
@@ -76,19 +65,4 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     }
 
 
-def full_matrices_are_linear(settings: Settings) -> None:
-    """Matrices of all nodes are those of small displacements: of the others there is none that is right at every speed."""
-    others = [name for name in settings.blades if settings.kinematics_of(name) != LINEAR]
-    if settings.section(SECTION).full_matrices and others:
-        value = f"true with the blade '{others[0]}' of kinematics {settings.kinematics_of(others[0])}"
-        raise settings.document.refusal(value, f"false, or structure.kinematics: {LINEAR}", "exports", "full_matrices")
-
-
-EXTENSION = Extension(
-    name="exports",
-    section=SECTION,
-    checks=(full_matrices_are_linear,),
-    targets=targets,
-    look_at="<results>/exports",
-    made_on_request=True,
-)
+EXTENSION = Extension(name="exports", section=SECTION, targets=targets, look_at="<results>/exports", made_on_request=True)

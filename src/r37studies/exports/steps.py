@@ -3,12 +3,11 @@
 from pathlib import Path
 from typing import Any
 
-from r37core.base.io import JOB_LOG, InputFileError, as_list
+from r37core.base.io import JOB_LOG, as_list
 from r37core.base.plain import from_plain
 from r37core.blade.geometry_file import read_geometry
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.material import Material
-from r37core.fem.matrices import assemble
 from r37core.fem.orientation import Orientation
 from r37core.fem.write_mesh import write_mesh
 from r37core.mesh.mesh_files import read_vtu
@@ -17,7 +16,7 @@ from r37core.stress.recovery import stress_operator
 from r37studies.fields import Target, worst_instants, write_modes, write_stress
 from r37studies.step_file import write_step
 
-from .matrices_out import write_full_matrices, write_reduced_matrices
+from .matrices_out import write_reduced_matrices
 
 
 def mesh(input: Any, output: Any, params: Any) -> None:
@@ -57,16 +56,8 @@ def stress(input: Any, output: Any, params: Any) -> None:
 
 
 def matrices(input: Any, output: Any, params: Any) -> None:
-    """Write matrices. Inputs: rom, and mesh for full ones. Params: choice, tip_line, material. Output: folder (of .mtx)."""
-    model, speeds, folder = read_reduced_model(input.rom), params.choice["matrix_speeds"], Path(output.folder)
-    if hasattr(input, "mesh"):
-        mesh = read_vtu(input.mesh)
-        if mesh.cyclic is not None:
-            raise InputFileError(f"{input.mesh}: found a sector of a disc (cyclic); allowed: exports.full_matrices: false")
-        full = assemble(mesh, from_plain(Material, params.material))
-        write_full_matrices(full, model, params.tip_line, speeds, folder)
-    else:
-        write_reduced_matrices(model, speeds, folder)
+    """Write reduced matrices. Input: rom. Params: choice. Output: folder (of .mtx)."""
+    write_reduced_matrices(read_reduced_model(input.rom), params.choice["matrix_speeds"], Path(output.folder))
 
 
 def _target(output: Any, params: Any) -> Target:

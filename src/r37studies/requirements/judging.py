@@ -19,7 +19,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import BRIEF, LONGEST, NEAR, STEP, Requirements
-from .evidence import HALF_FRICTION, Evidence, beyond_model, extended, lacking, operated_alone, reach, worst_of
+from .evidence import Evidence, beyond_model, extended, lacking, operated_alone, reach, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
@@ -41,9 +41,6 @@ Of first order in the step and in the size of the elements, as contact leaves it
 """
 
 LARGE_CHANGES = (LOWEST_DAMPING, HIGHEST_DAMPING, FAST_RISE, SUDDEN_RISE, BRIEF_RISE, SLOW_RISE, SLOWEST_RISE)
-LOOKS = (REST, HALF_FRICTION, *LARGE_CHANGES, UP, DOWN, *REPEATED)
-"""Further runs of a blade in a scene; see requirements.looks."""
-
 GROWS = 0.5
 """Share of a limit from which a motion that still grows may come to it; of wear that was not followed, from 0 on."""
 

@@ -182,7 +182,7 @@ class JudgedBlade(BladeRuns):
 
 
 def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
-    """Further runs, one look (LOOKS) after another, as long as no requirement fails clearly; none where nothing touches.
+    """Further runs, one look after another, as long as no requirement fails clearly; none where nothing touches.
 
     A run shorter than the published ones shows a beginning alone, and fails nothing clearly.
     """

@@ -64,7 +64,7 @@ use rule step as exported_stress with:
 
 use rule step as exported_matrices with:
     input:
-        unpack(exported.matrix_files),
+        rom=expand(paths.REDUCED_MODEL, tip_line=settings.structure.boundary.tip_line, allow_missing=True),
     output:
         folder=directory(exports_plan.EXPORTED_MATRICES),
     log:
@@ -72,5 +72,3 @@ use rule step as exported_matrices with:
     params:
         **step("r37studies.exports.steps.matrices"),
         choice=exported.choice,
-        tip_line=settings.structure.boundary.tip_line,
-        material=sweep.material,
