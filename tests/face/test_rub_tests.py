@@ -6,12 +6,10 @@ import contact_laws
 import numpy as np
 import pandas as pd
 import pytest
-from test_measured import configured
 
 import r37
 from r37core.config import ConfigError
 from r37core.contact.scene import Lining
-from r37studies.measured.calibration_plan import Calibrated
 from r37studies.measured.rub_tests.lining_fit import fit_lining
 from r37studies.measured.rub_tests.rig_table import read_rub_test
 
@@ -176,20 +174,3 @@ def test_a_table_that_fits_nothing_is_refused(tmp_path, text, message):
 def test_arguments_that_fit_nothing_are_refused(arguments, message):
     with pytest.raises(r37.ConfigError, match=message):
         r37.lining_from_rub_test(pd.DataFrame({"depth_mm": [0.1, 0.2], "force_n": [40, 81]}), **(RIG | arguments))
-
-
-def test_the_contact_length_of_a_rub_test_is_what_is_known_before(tmp_path):
-    depths = np.linspace(20.0, 200.0, 10)
-    rig = {
-        "depth_um": depths,
-        "force_n": 0.4 * depths * (1.0 + 0.01 * (-1.0) ** np.arange(10)),
-        "width_mm": 10,
-        "thickness_mm": 2,
-    }
-    pd.DataFrame(rig).to_csv(tmp_path / "rig.csv", index=False)
-    entry = {"scene": "material_abradable"}
-    settings = configured(tmp_path, [entry], calibrate={"rub_test": str(tmp_path / "rig.csv")})
-    ((number, spread),) = settings.made(Calibrated).spreads.items()
-    low, high = spread.log_between
-    fit = r37.lining_from_rub_test(tmp_path / "rig.csv").contact_length
-    assert number.name == "scene.lining.contact_length_m" and (low, high) == pytest.approx(fit.range_95)

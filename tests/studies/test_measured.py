@@ -385,7 +385,6 @@ FRICTION = {"of_scenes": {"friction.coefficient": {"between": [0.05, 0.3]}}}
         ([{}], {}, "no number; allowed: some under of_scenes"),
         ([{}], {"of_scenes": {"casing.clearance_m": {"between": [-1.0, 1e-3]}}}, "at the end of its range: "),
         ([{}], {**FRICTION, "runs": 16, "first": 12}, r"found 12; allowed: at most half of runs \(16\)"),
-        ([{}], {"rub_test": "/nowhere.csv"}, "calibrate.rub_test: found /nowhere.csv; allowed: .*contact_length_m"),
     ],
 )
 def test_a_calibration_that_cannot_be_done_is_refused(tmp_path, measured, calibrate, told):

@@ -11,7 +11,7 @@ from typing import Any
 from .blade_kind import blade_kinds
 
 CONFIG_FILES = ("blades_file", "fidelity_file", "scenes_file")
-SECTION_FILES = {"measured": ("file",), "tolerances": ("drawn_file",), "calibrate": ("rub_test",)}
+SECTION_FILES = {"measured": ("file",), "tolerances": ("drawn_file",)}
 """Sections of config.yaml, or lists of them -> their keys with names of files."""
 
 TABLES = ("profiles", "stacking_table", "designs")

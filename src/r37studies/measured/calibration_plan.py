@@ -5,12 +5,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from r37core.base.io import Named
 from r37core.base.plain import to_plain
-from r37core.base.varied_number import BLADE, KINDS, SCENE, VariedNumber
-from r37core.config import BladeSettings, ConfigError, Settings
+from r37core.base.varied_number import BLADE, KINDS, VariedNumber
+from r37core.config import BladeSettings, Settings
 from r37core.config.changed_numbers import changed_pair, check_known, nominal_value, scene_numbers
 from r37core.config.section import plain
 from r37core.config.spread import SpreadEntry
@@ -19,8 +17,6 @@ from r37core.contact.scene import Scene
 from .measurement_plan import Measured
 from .points import CONFIRMING, GAIN
 from .section import CALIBRATE, MEASURED, CalibrateSection
-
-_LENGTH = VariedNumber(SCENE, "lining.contact_length_m")
 
 FREQUENCIES = VariedNumber("frequencies", "frequencies_percent")
 """All natural frequencies at rest, in percent of the model's."""
@@ -41,28 +37,13 @@ class Calibrated:
 
     @cached_property
     def spreads(self) -> dict[VariedNumber, SpreadEntry]:
-        """Distribution of each number before; that of the contact length as a rub test gives it. Gains come last."""
-        section, file, settings = self.section, self.section.rub_test, self.settings
+        """Distribution of each number before. Gains come last."""
+        section = self.section
         spreads = section.spreads | ({FREQUENCIES: section.frequencies_percent} if section.frequencies_percent else {})
-        for number, each in enumerate(settings.section(MEASURED)):
+        for number, each in enumerate(self.settings.section(MEASURED)):
             if each.gain:
                 spreads[VariedNumber(GAIN, f"m{number}.{GAIN}")] = each.gain
-        if file is None:
-            return spreads
-        # tables take pandas
-        from r37studies.measured.rub_tests.lining_fit import fit_lining
-        from r37studies.measured.rub_tests.rig_table import read_rub_test
-
-        document, path = settings.document, (CALIBRATE.name, "rub_test")
-        lining = next((lining for _, name in self.pairs if (lining := settings.scenes[name].scene.lining)), None)
-        if lining is None or lining.published or _LENGTH in spreads:
-            allowed = f"a measured scene with a lining by contact_length_m, and no distribution of {_LENGTH.key}"
-            raise document.refusal(file, allowed, *path)
-        with document.blamed(path, ConfigError):
-            low, high = fit_lining(read_rub_test(settings.root / file, {}), lining).contact_length.range_95
-        if not 0.0 < low < high < np.inf:
-            raise document.refusal(f"{file}, which does not tell the contact length", "more points", *path)
-        return {_LENGTH: SpreadEntry(log_between=[low, high]), **spreads}
+        return spreads
 
     @property
     def pairs(self) -> list[tuple[str, str]]:

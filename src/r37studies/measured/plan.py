@@ -4,7 +4,7 @@ from r37core.base.varied_number import BLADE
 from r37core.config import ConfigError, Settings
 from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure, Panel
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.extent import Pair, Runs
 from r37core.plans.sweep_plan import Sweep
 from r37studies.surrogate.gaussian_processes import SearchPackageMissing, library
@@ -85,8 +85,7 @@ MEASUREMENTS = Extension(
             "the same speeds give, with theirs by mesh, step and 0.1% of friction.",
         ),
     ),
-    panel=Panel(TABLE, "r37studies.measured.panel.contents", "r37studies/measured/panel.js"),
-    closing="r37studies.measured.panel.closing",
+    closing="r37studies.measured.closing_lines.closing",
 )
 CALIBRATION = Extension(
     name="calibrate",
@@ -106,6 +105,6 @@ CALIBRATION = Extension(
             category="Calibration",
         ),
     ),
-    closing="r37studies.measured.panel.closing_of_calibration",
+    closing="r37studies.measured.closing_lines.closing_of_calibration",
 )
 EXTENSIONS = (MEASUREMENTS, CALIBRATION)

@@ -97,14 +97,10 @@ class CalibrateSection(Spreads):
     batch: int = option("Number of designs per round, run in parallel", 4, ge=1, le=500)
     draws: int = option("Number of draws of the result, for tolerances.drawn_file", 256, ge=32, le=4096)
     seed: int = option("Seed of designs and draws", 0, ge=0, le=2**31)
-    rub_test: FileName | LeftOut = left_out(
-        "CSV of a rub rig with depth, force, width and thickness: its 95% range of lining.contact_length_m counts"
-    )
-
     frequencies_percent: SpreadEntry | LeftOut = left_out("Natural frequencies at rest, in percent of the model's")
 
     def _check(self) -> None:
-        if not self.spreads and self.rub_test is None:
+        if not self.spreads:
             raise refused("no number", "some under of_scenes or of_blades, each with its range")
         if 2 * self.first > self.runs:
             # designs of later rounds say how wrong the surrogates are

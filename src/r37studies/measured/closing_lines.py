@@ -1,29 +1,16 @@
-"""Panel of the explorer and closing lines of measurements and of a calibration."""
+"""Closing lines of measurements and of a calibration."""
 
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from r37core.base.dataset_file import read_dataset
-from r37core.explorer.contents import packed
 from r37core.results.closing import counted
 from r37core.results.table_file import read_table
 from r37studies.agreement import disagrees, groups, words
 
 from .model_check import FAR
 from .posterior import number_table
-
-
-def contents(measured: pd.DataFrame) -> list[dict[str, object]]:
-    """Each measurement: blade, scene, title and unit, its axis, measured and simulated values, their deviations, and words."""
-    panels = []
-    for (blade, scene, quantity, file), rows in groups(measured):
-        axis = "angle_deg" if rows["angle_deg"].notna().all() else "speed_rad_s"
-        numbers = {name: packed(rows[name].to_numpy(float)) for name in rows if rows[name].dtype.kind in "fi"}
-        about = {"blade": blade, "scene": scene, "title": f"{quantity} ({Path(file).name})", "unit": rows["unit"].iloc[0]}
-        panels.append(about | {"axis": axis, "words": words(rows)} | numbers)
-    return panels
 
 
 def closing(results: Path) -> str:
