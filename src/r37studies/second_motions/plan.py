@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from r37core.base.plain import to_plain
 from r37core.base.speeds import rounded
 from r37core.base.yaml_file import KeyPath
 from r37core.config import Settings, scenes_named
@@ -30,18 +29,6 @@ KEPT = ("stress", "static_stress", "wear", "energy", "casing", "motion_kind")
 def motion_keys(pairs: Iterable[tuple[str, str]]) -> paths.Wildcards:
     """Wildcards of the sweeps of some pairs of blade and scene, one pair after another."""
     return [{**key, "motion": motion} for key in paths.run_keys(pairs) for motion in MOTIONS]
-
-
-def parameters(sweep: Sweep) -> dict[str, Any]:
-    """Scene, time integration and speeds of the sweeps."""
-    settings, section = sweep.settings, sweep.settings.section(SECTION)
-    return {
-        "scene": sweep.plain_scene,
-        # of a run from rest: those of the pipeline
-        "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene)),
-        # without any speed where there are none, as the rules are there all the same
-        "sweep": to_plain(section.sweep()) if section.asked else None,
-    }
 
 
 def finished_runs(sweep: Sweep, wildcards: Any) -> list[str]:

@@ -15,7 +15,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 from r37studies.blade_runs import BladeRuns
 
-from .choice import DOWN, REST, UP, SweepChoice
+from .choice import DOWN, REST, SweepChoice
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -23,7 +23,7 @@ class CarriedSweep(BladeRuns):
     """A sweep of one `motion` (MOTIONS) of a blade in a scene; the `choice` is that of the scene's runs."""
 
     sweep: SweepChoice
-    motion: str = UP
+    motion: str
 
     @property
     def speeds(self) -> list[float]:

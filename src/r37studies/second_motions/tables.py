@@ -74,8 +74,6 @@ def closing(results: Path) -> str:
     """How many ranges there are, and where the largest motion is most above that from rest."""
     table = read_table(results / "second_motions.csv")
     text = counted(len(table), "range") + " of hysteresis"
-    if not len(table):
-        return text
     second = table[table["largest_motion"] != REST]
     ratio = second[[f"rms_normal_{motion}_m" for motion in MOTIONS]].max(axis=1) / second[f"rms_normal_{REST}_m"]
     if not ratio.notna().any():

@@ -1,6 +1,7 @@
 # Motions that a start from rest does not show: a job sweeps up or down with the state carried on.
 from r37studies.second_motions import plan as motions_plan
 
+motions = settings.section(motions_plan.SECTION)
 motion_pairs = motions_plan.pairs_of(settings)
 motion_files = motions_plan.motion_keys(motion_pairs)
 
@@ -18,7 +19,11 @@ use rule step as second_motion_sweep with:
         motion="|".join(motions_plan.MOTIONS),
     params:
         **step("r37studies.second_motions.steps.carry"),
-        **motions_plan.parameters(sweep),
+        scene=sweep.plain_scene,
+        # of a run from rest: those of the pipeline
+        choice=lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene)),
+        # without any speed where there are none, as the rule is there all the same
+        sweep=to_plain(motions.sweep()) if motions.asked else None,
         motion=lambda wildcards: wildcards.motion,
         results=lambda wildcards: motions_plan.results(sweep, wildcards),
         kept=settings.fidelity.time_integration.kept,
