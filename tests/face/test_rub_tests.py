@@ -144,8 +144,8 @@ def test_a_table_has_the_separator_of_its_header(tmp_path):
         ("", "found no header; allowed: a CSV with a header"),
         ("depth_mm,force_n\n0,1,3,4\n0,2,5,6", "more cells than the header; allowed: as many, and decimal points"),
         (
-            "depth_mm,force_lbf\n.1,3\n.2,5",
-            "found force_lbf, without a known unit in the header 'depth_mm, force_lbf'; .*force n, kn;",
+            "depth_mm,force_kgf\n.1,3\n.2,5",
+            "found force_kgf, without a known unit in the header 'depth_mm, force_kgf'; .*force n, kn, lbf;",
         ),
         ("depth_mm,load\n.1,3\n.2,5", "found no force in the header 'depth_mm, load'; allowed: depth m, cm, mm"),
         ("depth_mm,force_n,uncertanty_n\n.1,3,1\n.2,5,1", r"uncertanty_n \(did you mean uncertainty\?\)"),
