@@ -64,7 +64,9 @@ use rule step as exported_stress with:
 
 use rule step as exported_matrices with:
     input:
-        rom=expand(paths.REDUCED_MODEL, tip_line=settings.structure.boundary.tip_line, allow_missing=True),
+        rom=lambda wildcards: paths.REDUCED_MODEL.format(
+            blade=wildcards.blade, tip_line=settings.structure.boundary.tip_line
+        ),
     output:
         folder=directory(exports_plan.EXPORTED_MATRICES),
     log:
