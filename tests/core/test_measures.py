@@ -88,7 +88,6 @@ def test_the_integral_inside_is_that_of_straight_lines():
     assert OperatingRange(1050.0, 1150.0).integral(speeds, shares) == pytest.approx(75.0)
     # a margin is judged, but no time is spent there
     assert OperatingRange(1050.0, 1150.0, 0.05).integral(speeds, shares) == pytest.approx(75.0)
-    assert OperatingRange(1000.0, 1500.0, 0.1).time_share(1500.0, 1650.0) == 0.0
     # a margin that is rounded is covered
     for redline in np.arange(500.0, 2001.0, 10.0):
         for percent in (1, 2, 3, 5, 10):
@@ -103,9 +102,7 @@ def test_dwells_weigh_and_the_rest_is_even():
     shares = np.array([0.0, 0.0, 1.0, 1.0, 0.0, 0.0])
     dwell = OperatingRange(1050.0, 1150.0, dwell=(OperatingDwell(1100.0, 1120.0, 0.6),))
     assert dwell.integral(speeds, shares) == pytest.approx(100.0 * (0.6 + 0.4 * 0.2), rel=1e-6)
-    assert dwell.time_share(1100.0, 1120.0) == pytest.approx(0.68)
-    assert dwell.time_share(1050.0, 1150.0) == pytest.approx(1.0)
-    assert OperatingRange(1050.0, 1150.0).time_share(1050.0, 1060.0) == pytest.approx(0.1)
+    assert dwell.integral(speeds, np.ones(len(speeds))) == pytest.approx(100.0)
 
 
 def test_measures_inside():

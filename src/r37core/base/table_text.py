@@ -4,7 +4,7 @@ import csv
 import re
 from collections.abc import Iterator
 
-from .io import CarriedError
+from .io import TextFileError
 
 _SEPARATORS = ";\t,"
 _COMMENT = re.compile(r"^\s*#.*|\s#\s.*|^sep=.$")
@@ -14,22 +14,11 @@ _THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2},\d{3}\s*")
 """Numbers whose comma may separate thousands, too."""
 
 
-class TableTextError(CarriedError):
-    """Text that cannot be read as a table. Parameters: `line` from 1, and the `reason`."""
-
-    def __init__(self, line: int, reason: str):
-        super().__init__(line, reason)
-        self.line, self.reason = line, reason
-
-    def __str__(self) -> str:
-        return f"line {self.line}: {self.reason}"
-
-
 def table_rows(text: str) -> Iterator[tuple[int, list[str]]]:
     """Number of the line (from 1) and stripped cells of the header, then of each row; of an empty text nothing.
 
     Comma, semicolon or tab separate cells. Between semicolons or tabs a number may have a decimal comma, which becomes a point.
-    Blank lines, comments (#) and lines before the header are skipped. Raises TableTextError for text that is no CSV, and for
+    Blank lines, comments (#) and lines before the header are skipped. Raises TextFileError for text that is no CSV, and for
     1,234 where no other number of the table tells whether that is 1.234.
     """
     lines = [_COMMENT.sub("", line) for line in text.splitlines()]
@@ -38,21 +27,21 @@ def table_rows(text: str) -> Iterator[tuple[int, list[str]]]:
     try:
         rows = [(start + reader.line_num, cells) for cells in reader if any(cell.strip() for cell in cells)]
     except csv.Error as error:
-        raise TableTextError(start + reader.line_num, f"not readable as a table: {error}") from None
+        raise TextFileError(start + reader.line_num, f"not readable as a table: {error}") from None
     if separator != ",":
         _take_decimal_commas(rows)
     yield from ((line, [cell.strip() for cell in cells]) for line, cells in rows)
 
 
 def _take_decimal_commas(rows: list[tuple[int, list[str]]]) -> None:
-    """Make points of decimal commas. Raises TableTextError where all numbers with commas may have thousands."""
+    """Make points of decimal commas. Raises TextFileError where all numbers with commas may have thousands."""
     places = [(row, place) for row, (_, cells) in enumerate(rows) for place, cell in enumerate(cells) if "," in cell]
     commas = [(row, place) for row, place in places if _DECIMAL_COMMA.fullmatch(rows[row][1][place])]
     doubtful = [(row, place) for row, place in commas if _THOUSANDS.fullmatch(rows[row][1][place])]
     if doubtful and len(doubtful) == len(commas):
         line, cells = rows[doubtful[0][0]]
         cell = cells[doubtful[0][1]].strip()
-        raise TableTextError(line, f"{cell} may be {cell.replace(',', '.')} or {cell.replace(',', '')}: write points")
+        raise TextFileError(line, f"{cell} may be {cell.replace(',', '.')} or {cell.replace(',', '')}: write points")
     for row, place in commas:
         rows[row][1][place] = rows[row][1][place].replace(",", ".")
 

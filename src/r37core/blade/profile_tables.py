@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.base.io import read_text
-from r37core.base.table_text import TableTextError, table_rows
+from r37core.base.io import TextFileError, read_text
+from r37core.base.table_text import table_rows
 from r37core.base.units import si_name
 
 from .profile import BladeShapeError, ProfileParameters
@@ -158,7 +158,7 @@ def number_rows(
         if twice:
             raise BladeShapeError(f"line {line}: the column {twice[0]} is given twice")
         return tuple(_row(header, cells, line, number_columns, text_columns) for line, cells in rows)
-    except TableTextError as error:
+    except TextFileError as error:
         raise BladeShapeError(str(error)) from None
 
 

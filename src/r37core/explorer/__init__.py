@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from r37core.base.io import atomic_write
+from r37core.base.io import write_text
 
 FOLDER = Path(__file__).parent
 
@@ -42,5 +42,4 @@ def write_page(contents: object, title: str, file: Path | str, parts: Sequence[P
         ("program", "\n".join(programs)),
     ):
         page = page.replace(f"<!-- {mark} -->", text)
-    with atomic_write(file) as partial:
-        partial.write_text(page, encoding="utf-8")
+    write_text(page, file)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from r37core.base.io import atomic_write
+from r37core.base.io import write_text
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
@@ -42,8 +42,7 @@ def write_abaqus(mesh: BladeMesh, file: Path | str, material: Material, title: s
         "U",
         "*END STEP",
     ]
-    with atomic_write(file) as partial:
-        partial.write_text("\n".join(lines) + "\n", encoding="ascii")
+    write_text("\n".join(lines) + "\n", file)
 
 
 def _rows(numbers: list[int], width: int) -> list[str]:

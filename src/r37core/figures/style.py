@@ -156,24 +156,19 @@ def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False, li
         axes.add_artist(Rectangle((0.0, lowest), 1.0, 1e6 - lowest, transform=axes.get_yaxis_transform(), **tint))
 
 
-def legend_entries(panels: Iterable[Axes]) -> tuple[list[Any], list[str]]:
-    """Handles and labels of several panels for one legend, each label once."""
-    pairs = (zip(*axes.get_legend_handles_labels(), strict=True) for axes in panels)
-    entries = {label: handle for panel_entries in pairs for handle, label in panel_entries}
-    return list(entries.values()), list(entries)
-
-
 def panels(rows: int, columns: int, height: float, **look: Any) -> tuple[Figure, Any]:
     """A figure across the page, of a height (inch), and its panels, shape (rows, columns); `look`: as of pyplot.subplots."""
     return plt.subplots(rows, columns, figsize=(PAGE, height), squeeze=False, **look)
 
 
 def legend_below(figure: Any, axes: Iterable[Axes], columns: int, first: Mapping[str, Any] | None = None, **look: Any) -> None:
-    """One legend of several panels below all of them, `first` the handles of these labels; none where there is nothing."""
-    handles, labels = legend_entries(axes)
-    first = first or {}
-    if first or labels:
-        figure.legend([*first.values(), *handles], [*first, *labels], loc="outside lower center", ncols=columns, **look)
+    """One legend of several panels below all of them, each label once, `first` the handles of these; none without any."""
+    entries = dict(first or {})
+    for panel in axes:
+        handles, labels = panel.get_legend_handles_labels()
+        entries |= dict(zip(labels, handles, strict=True))
+    if entries:
+        figure.legend(list(entries.values()), list(entries), loc="outside lower center", ncols=columns, **look)
 
 
 def mark_diverged(axes: Axes, places: np.ndarray, colour: str = "red") -> None:

@@ -17,7 +17,7 @@ from r37core.contact.casing import approach
 from r37core.fem.sector import aliased
 from r37core.rom.rotation import BucklingError
 
-from .disc_campbell import DISC_AXES, DISC_VARIABLES, Families, disc_families
+from .disc_campbell import DISC_AXES, DISC_VARIABLES, Families, disc_families, named_order
 
 if TYPE_CHECKING:
     # which imports scipy.linalg
@@ -103,11 +103,7 @@ def name_modes(model: ReducedModel, shapes: np.ndarray, count: int) -> tuple[tup
     """
     norms = np.einsum("ik,ij,jk->k", shapes, model.mass, shapes)
     assurance = (model.shape_products @ shapes) ** 2 / model.shape_norms[:, None] ** 2 / norms
-    _, named = scipy.optimize.linear_sum_assignment(-assurance)
-    others = [rank for rank in range(shapes.shape[1]) if rank not in set(named.tolist())]
-    order = np.array([*named, *others])[:count]
-    names = (*model.shape_names, *map(str, range(len(named) + 1, count + 1)))[:count]
-    return names, order
+    return named_order(model, assurance, count)
 
 
 def dynamic_clearance(

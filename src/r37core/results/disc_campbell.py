@@ -43,6 +43,17 @@ class Families(NamedTuple):
     continuity: np.ndarray
 
 
+def named_order(model: ReducedModel, assurance: np.ndarray, count: int) -> tuple[tuple[str, ...], np.ndarray]:
+    """Names and order of `count` modes by their MAC with the ideal shapes, shape (shapes, modes), of ascending frequency.
+
+    The names of the shapes go to the modes with the largest sum of MAC; the others follow by frequency: 4, 5, ...
+    """
+    _, named = scipy.optimize.linear_sum_assignment(-assurance)
+    others = np.setdiff1d(np.arange(assurance.shape[1]), named)
+    names = (*model.shape_names, *map(str, range(len(named) + 1, count + 1)))
+    return names[:count], np.array([*named, *others])[:count]
+
+
 def disc_families(model: ReducedModel, speeds: np.ndarray, count: int, among: int) -> Families:
     """The `count` lowest families at ascending `speeds` (rad/s), named at the highest nodal diameter (the disc moves least).
 
@@ -53,9 +64,7 @@ def disc_families(model: ReducedModel, speeds: np.ndarray, count: int, among: in
     assert disc is not None
     real, imaginary = disc.shape_products
     products = np.abs(real + 1j * imaginary)[:, :among] ** 2 / model.shape_norms[:, None] ** 2
-    _, named = scipy.optimize.linear_sum_assignment(-products)
-    order = np.array([*named, *(rank for rank in range(among) if rank not in set(named.tolist()))])[:count]
-    names = (*model.shape_names, *map(str, range(len(named) + 1, count + 1)))[:count]
+    names, order = named_order(model, products, count)
     diameters, modes = disc.squared_frequencies.shape
     reference = np.eye(modes)[:, order]
     frequencies, every = np.zeros((2, count, diameters, len(speeds)))

@@ -83,19 +83,12 @@ class OperatingRange:
             density = density + np.where(there, dwell.share * whole / (dwell.stop - dwell.start), 0.0)
         return density
 
-    def time_share(self, begin: float, end: float) -> float:
-        """Share of the operating time at speeds (rad/s) from `begin` to `end`."""
-        return self.integral(np.array([begin, end]), np.ones(2), (begin, end)) / (self.redline - self.idle)
-
-    def integral(self, speeds: np.ndarray, values: np.ndarray, within: tuple[float, float] = (0.0, np.inf)) -> float:
+    def integral(self, speeds: np.ndarray, values: np.ndarray) -> float:
         r"""Integral (rad/s) of `values` at ascending `speeds` from idle to redline, weighted by the operating time.
 
         (redline - idle) \int values(speed) p(speed) d speed, with p the density of the operating time; without dwells the plain
-        integral. Between speeds the values are a straight line, and the density is constant between the ends of dwells.
-        `within`: begin and end (rad/s) of the part of the range that counts.
-        """
-        begin, end = max(within[0], self.idle), min(within[1], self.redline)
-        ends = [begin, end, *(side for dwell in self.dwell for side in (dwell.start, dwell.stop))]
-        inside = np.unique([speed for speed in (*speeds, *ends) if begin <= speed <= end])
+        integral. Between speeds the values are a straight line, and the density is constant between the ends of dwells."""
+        ends = [self.idle, self.redline, *(side for dwell in self.dwell for side in (dwell.start, dwell.stop))]
+        inside = np.unique([speed for speed in (*speeds, *ends) if self.idle <= speed <= self.redline])
         pieces = 0.5 * (np.interp(inside[1:], speeds, values) + np.interp(inside[:-1], speeds, values)) * np.diff(inside)
         return float(np.sum(pieces * self.time_density(0.5 * (inside[1:] + inside[:-1]))))

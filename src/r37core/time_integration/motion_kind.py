@@ -7,14 +7,15 @@ instant and the lining's wear are brought back in the same proportion.
 """
 
 import copy
-from dataclasses import dataclass
 from math import gcd
+from typing import NamedTuple
 
 import numpy as np
 
 from .problem import Problem
 from .segments import own_increments
 from .simulate import Simulation
+from .speed_arrays import OF_KIND
 from .state import SimulationState
 from .status import MotionKind
 
@@ -37,8 +38,7 @@ _BATCHES, _ERRORS = 10, 2.0
 """Parts whose means tell how far the exponent scatters, and standard errors by which it has to differ from 0."""
 
 
-@dataclass(frozen=True)
-class KindNumbers:
+class KindNumbers(NamedTuple):
     """`kind` of a motion; `exponent`, the largest Lyapunov exponent per revolution, and its standard `error`.
 
     `recurrence`: distance of the state from that `period` (revolutions) before, as a share of its size, the largest in
@@ -54,13 +54,7 @@ class KindNumbers:
     @property
     def values(self) -> dict[str, float]:
         """Name of each number in datasets -> its value."""
-        return {
-            "motion_kind": int(self.kind),
-            "lyapunov_exponent": self.exponent,
-            "lyapunov_exponent_error": self.error,
-            "recurrence": self.recurrence,
-            "recurrence_period": self.period,
-        }
+        return dict(zip(OF_KIND, self, strict=True))
 
 
 class PhaseSpace:

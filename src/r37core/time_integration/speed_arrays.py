@@ -71,7 +71,7 @@ OF_KIND = {
     "recurrence": _number("1", "distance of the state from that a period before, as a share of its size"),
     "recurrence_period": _number("1", "period of the motion in revolutions, after which it comes nearest to itself"),
 }
-"""Variables of KindNumbers."""
+"""Variables of KindNumbers, in the order of its fields."""
 
 SPECTRUM = {
     "amplitude": Variable(("engine_order",), "m", "amplitude of the leading edge's normal displacement", "f4"),

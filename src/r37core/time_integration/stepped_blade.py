@@ -120,20 +120,12 @@ class SteppedBlade:
         return np.sum(self.modes * (self.model.stiffness_per_square @ self.modes), axis=0) / self.frequencies**2
 
 
-def friction_coefficient(scene: Scene) -> float:
-    """Coefficient of friction; 0 without."""
-    return scene.friction.coefficient if scene.friction else 0.0
-
-
-def _rest_modes(model: ContactModel, cone_angle: float) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies (rad/s) of all modes at rest, and the contact nodes' displacement by them, shape (3, nodes, modes)."""
-    return np.sqrt(model.squared_frequencies), casing_axes(model.displacement_operator, cone_angle)
-
-
 @lru_cache(maxsize=32)
 def _stepped_at_rest(model: ContactModel, scene: Scene, choice: IntegrationChoice, cone_angle: float, most: int) -> int:
     """Number of the modes that are stepped, at most `most`: see stepped_modes. The same at all speeds of a sweep."""
-    frequencies, rows = _rest_modes(model, cone_angle)
+    # of all modes at rest, and the contact nodes' displacement by them
+    frequencies, rows = np.sqrt(model.squared_frequencies), casing_axes(model.displacement_operator, cone_angle)
+    coefficient = scene.friction.coefficient if scene.friction else 0.0
 
     def is_stable(stepped: int) -> bool:
         own = frequencies[:stepped]
@@ -143,4 +135,4 @@ def _stepped_at_rest(model: ContactModel, scene: Scene, choice: IntegrationChoic
         return ratio < largest_pressed_ratio(scene)
 
     step, above = choice.time_step, choice.static_above
-    return stepped_modes(frequencies, rows, friction_coefficient(scene), step, above, most, is_stable)
+    return stepped_modes(frequencies, rows, coefficient, step, above, most, is_stable)

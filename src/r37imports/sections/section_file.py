@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.io import TextFileError, read_text
-from r37core.base.table_text import TableTextError, table_rows
+from r37core.base.table_text import table_rows
 from r37core.base.units import LENGTH_UNITS
 from r37core.blade.profile import BladeShapeError
 
@@ -85,22 +85,19 @@ def read_table(text: str) -> SectionFile:
     # section -> side -> points
     sections: dict[str, dict[str, list[list[float]]]] = {}
     lines: dict[str, int] = {}
-    try:
-        rows = table_rows(text)
-        first, header = next(rows, (1, []))
-        header = [title.lower() for title in header]
-        if missing := [column for column in _COLUMNS if column not in header]:
-            lacking = f"the table lacks the columns {', '.join(missing)}"
-            raise TextFileError(first, f"{lacking}; needed: section, x, y, z, separated by commas")
-        for line, cells in rows:
-            if len(cells) != len(header):
-                raise TextFileError(line, "the row has more or fewer cells than the first line has columns")
-            row = dict(zip(header, cells, strict=True))
-            lines.setdefault(row["section"], line)
-            point = [number_in(row[column], line, f"column {column}") for column in "xyz"]
-            sections.setdefault(row["section"], {}).setdefault(row.get("side", ""), []).append(point)
-    except TableTextError as error:
-        raise TextFileError(error.line, error.reason) from None
+    rows = table_rows(text)
+    first, header = next(rows, (1, []))
+    header = [title.lower() for title in header]
+    if missing := [column for column in _COLUMNS if column not in header]:
+        lacking = f"the table lacks the columns {', '.join(missing)}"
+        raise TextFileError(first, f"{lacking}; needed: section, x, y, z, separated by commas")
+    for line, cells in rows:
+        if len(cells) != len(header):
+            raise TextFileError(line, "the row has more or fewer cells than the first line has columns")
+        row = dict(zip(header, cells, strict=True))
+        lines.setdefault(row["section"], line)
+        point = [number_in(row[column], line, f"column {column}") for column in "xyz"]
+        sections.setdefault(row["section"], {}).setdefault(row.get("side", ""), []).append(point)
     if not sections:
         raise TextFileError(1, "found no rows; needed: section, x, y, z of each point")
     return SectionFile(tuple(_joined_section(sides, lines[name]) for name, sides in sections.items()))

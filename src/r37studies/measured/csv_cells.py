@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from r37core.base.io import TextFileError, read_text
-from r37core.base.table_text import TableTextError, table_rows
+from r37core.base.table_text import table_rows
 from r37core.base.units import LENGTH_UNITS
 from r37core.config.document import ConfigError
 from r37core.config.messages import single_line
@@ -22,7 +22,7 @@ def read_cells(file: Path) -> pd.DataFrame:
     """
     try:
         rows = [cells for _, cells in table_rows(read_text(file))]
-    except (OSError, TextFileError, TableTextError) as error:
+    except (OSError, TextFileError) as error:
         reason = single_line(getattr(error, "strerror", None) or str(error).strip())
         raise ConfigError(f"{reason}; allowed: a CSV with a header, and rows of as many cells") from None
     if not rows:
