@@ -106,8 +106,8 @@ def write_groups(groups: Iterable[tuple[str, xr.Dataset]], file: Path | str, pro
             dataset.dump_to_store(xr.backends.NetCDF4DataStore(opened, name, "a"), encoding=_encoding(dataset))
 
 
-def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, float | bool | None]]:
-    encoding: dict[str, dict[str, float | bool | None]] = {}
+def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
+    encoding: dict[str, dict[str, Any]] = {}
     for name, variable in dataset.variables.items():
         filled = name in dataset.data_vars and variable.dtype.kind == "f"
         encoding[str(name)] = {"_FillValue": np.nan if filled else None}

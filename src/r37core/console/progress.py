@@ -15,7 +15,6 @@ import time
 from ast import literal_eval
 from collections import Counter
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -52,7 +51,6 @@ _MOST_CHANGES, _LONGEST_CHANGE = 3, 300
 """Rules that are named as they run again, and letters of what has changed."""
 
 
-@dataclass
 class Progress(logging.Filter):
     """A filter for the handler of Snakemake's messages that keeps those about single jobs back and writes a line instead.
 
@@ -61,24 +59,15 @@ class Progress(logging.Filter):
     `beating` the line also comes when Snakemake says nothing for long.
     """
 
-    expected: int
-    stream: TextIO = field(default_factory=lambda: sys.stderr)
-    clock: Callable[[], float] = time.monotonic
-    _jobs: dict[Any, tuple[str, str, str, float]] = field(default_factory=dict)
-    _simulated: Counter[str] = field(default_factory=Counter)
-    _again: set[str] = field(default_factory=set)
-    _diverged: int = 0
-    _done: int = 0
-    _known: int = 0
-    _began: float | None = None
-    _written: float = -1e9
-    _open: bool = False
-    _ended: threading.Event = field(default_factory=threading.Event)
-    _lock: threading.RLock = field(default_factory=threading.RLock)
-    _made: float = field(init=False)
-
-    def __post_init__(self) -> None:
-        self._made = self.clock()
+    def __init__(self, expected: int, stream: TextIO | None = None, clock: Callable[[], float] = time.monotonic):
+        super().__init__()
+        self.expected, self.stream, self.clock = expected, stream or sys.stderr, clock
+        self._jobs: dict[Any, tuple[str, str, str, float]] = {}
+        self._simulated, self._again = Counter[str](), set[str]()
+        self._diverged = self._done = self._known = 0
+        self._began: float | None = None
+        self._made, self._written, self._open = clock(), -1e9, False
+        self._ended, self._lock = threading.Event(), threading.RLock()
 
     def filter(self, record: logging.LogRecord) -> bool:
         """True where Snakemake's own handler should write the record."""

@@ -10,13 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.results.columns import LEFT_BY, LENGTHS, names
-from r37core.results.datasets import with_further_runs
 from r37core.results.measures import leading_edge, ran
 from r37core.rom.reduction_choice import LINEAR
 from r37core.time_integration.status import RunStatus
 
 from . import style
-from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows, joined_runs
+from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows, shown_runs
 
 _MOST_RANKED = 60
 """Blades whose bars fit in a picture."""
@@ -51,11 +50,9 @@ def draw_comparison(
     crosses of the blade's colour at the upper edge. The title names the blades of which no run lies there, with their
     crossings. `further_runs`: of a verdict.
     """
-    rms = with_further_runs("rms", rms, further_runs)
-    stress = None if stress is None else with_further_runs("stress", stress, further_runs)
+    rms, stress, whole = shown_runs(rms, stress, further_runs)
     styles = style.blade_styles(rms["blade"].values)
     order = shared_order(campbell, float(rms["speed"].min()), float(rms["speed"].max()))
-    whole = joined_runs(rms, stress)
     crossings = campbell["crossing_speed"].sel(mode="1B", engine_order=order).to_series() if order else {}
     windows = {blade: slice((1.0 - below) * speed, (1.0 + above) * speed) for blade, speed in dict(crossings).items()}
     responses = {blade: ran(whole.sel(blade=blade, speed=window)) for blade, window in windows.items() if window.start > 0.0}

@@ -16,6 +16,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
 from r37core.results.danger import ranges_of
+from r37core.results.datasets import with_further_runs
 from r37core.results.events import Danger
 from r37core.results.exceedance import SpeedRange, ranges_above
 from r37core.results.limits import Cause
@@ -75,9 +76,15 @@ def draw_danger_rows(
     axes.grid(visible=False, axis="y")
 
 
-def joined_runs(rms: xr.Dataset, stress: xr.Dataset | None) -> xr.Dataset:
-    """The runs of a dataset of the motion with their stress, where there is one."""
-    return rms if stress is None else xr.merge([rms, stress], join="left", compat="override")
+def shown_runs(
+    rms: xr.Dataset, stress: xr.Dataset | None, further_runs: xr.Dataset | None
+) -> tuple[xr.Dataset, xr.Dataset | None, xr.Dataset]:
+    """The two datasets with the further runs of a verdict in place of the sweep's, and the runs with motion and stress."""
+    rms = with_further_runs("rms", rms, further_runs)
+    if stress is None:
+        return rms, None, rms
+    stress = with_further_runs("stress", stress, further_runs)
+    return rms, stress, xr.merge([rms, stress], join="left", compat="override")
 
 
 def kinds_of(response: xr.Dataset) -> dict[str, list[SpeedRange]]:

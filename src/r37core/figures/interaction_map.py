@@ -17,7 +17,6 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 from r37core.results.closing import interaction_title
-from r37core.results.datasets import with_further_runs
 from r37core.results.events import Danger
 from r37core.results.interactions import sized
 from r37core.results.measures import ran
@@ -27,7 +26,7 @@ from r37core.time_integration.status import RunStatus
 
 from . import style
 from .campbell_diagram import draw_engine_orders
-from .danger_rows import LINE, draw_danger_rows, joined_runs
+from .danger_rows import LINE, draw_danger_rows, shown_runs
 
 _WIDTH = 5.2
 """Width (inch) at which letters can still be read where a telephone shows the figure."""
@@ -90,8 +89,7 @@ def draw_interactions(
     colours = {blade: look["color"] if owner[look["color"]] == blade else _OTHERS for blade, look in looks.items()}
     speeds = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
     margin = max(0.03 * (speeds[-1] - speeds[0]), 0.01 * speeds[-1])
-    stress = None if stress is None else with_further_runs("stress", stress, further_runs)
-    whole = joined_runs(with_further_runs("rms", rms, further_runs), stress)
+    _, _, whole = shown_runs(rms, stress, further_runs)
     drawn = rms["blade"].values.tolist() if rms.sizes["blade"] <= _MOST_ROWS else []
     highest = np.nanmin([1.3 * float(campbell["frequency"].sel(mode="2B").max()), 1.15 * rows["frequency"].max()])
     strip = -_STRIP * highest if rows["frequency"].isna().any() else 0.0

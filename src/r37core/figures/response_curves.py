@@ -6,14 +6,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from r37core.results.datasets import with_further_runs
 from r37core.results.measures import ran
 from r37core.results.other_motions import half_step, swept
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from . import style
-from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows, joined_runs
+from .danger_rows import LEGEND, ROW_HEIGHT, draw_danger_rows, shown_runs
 
 _MARKERS = (
     ("motion_at_end", MotionAtEnd.CUT_FREE, "o", "cut free at the end"),
@@ -37,8 +36,7 @@ def draw_response(
     `campbell`: where 1B crosses engine orders, None to leave that out; `motions`: more than that from rest, whose largest is
     drawn where it differs from that (results/other_motions.py), and these speeds shaded; `further_runs`: of a verdict.
     """
-    rms = with_further_runs("rms", rms, further_runs)
-    stress = None if stress is None else with_further_runs("stress", stress, further_runs)
+    rms, stress, whole = shown_runs(rms, stress, further_runs)
     scenes = rms["scene"].values.tolist()
     heights = [*[1.8] * (2 if stress is None else 3), ROW_HEIGHT * len(scenes)]
     figure, grid = style.panels(len(heights), 1, 1.0 + sum(heights), sharex=True, height_ratios=heights)
@@ -67,7 +65,6 @@ def draw_response(
         panels[2].set_ylabel(style.stress_label(stress))
     for axes in panels:
         axes.set_ylim(bottom=0.0)
-    whole = joined_runs(rms, stress)
     responses = {style.scene_words(scene): ran(whole.sel(scene=scene)) for scene in scenes}
     draw_danger_rows(rows, responses, [f"C{number}" for number in range(len(scenes))])
     rows.set_xlabel(style.SPEED_LABEL)

@@ -107,12 +107,12 @@ def name_modes(model: ReducedModel, shapes: np.ndarray, count: int) -> tuple[tup
 
 
 def dynamic_clearance(
-    model: ReducedModel, shapes: np.ndarray, tip_line: str, tangential_displacement: np.ndarray, cone_angle: float | None = None
+    model: ReducedModel, shapes: np.ndarray, tip_line: str, tangential_displacement: np.ndarray
 ) -> np.ndarray:
     """Change of the leading-edge clearance (m), shape (modes, displacements), as the blade swings along free modes.
 
     `shapes`: reduced shapes (columns); `tangential_displacement` (m), positive towards growing theta, of the tip's
-    leading edge on `tip_line`; `cone_angle` (rad) of the casing, the tip's own without it. The mode is scaled to that
+    leading edge on `tip_line`, round which the casing has the cone of the tip. The mode is scaled to that
     displacement; the node comes nearer to the casing by `approach`, and the clearance changes by the opposite.
     """
     line = model.tip_lines[tip_line]
@@ -122,7 +122,7 @@ def dynamic_clearance(
     scale = tangential_displacement / tangential
     radius = np.hypot(*leading_edge.points[0, :2])
     swung = np.stack(np.broadcast_arrays(scale * radial, tangential_displacement, scale * axial))
-    return -approach(radius, swung, line.cone_angle if cone_angle is None else cone_angle)
+    return -approach(radius, swung, line.cone_angle)
 
 
 VARIABLES = {

@@ -27,25 +27,15 @@ OF_RUNS = ("spectrum", "stress", "static_stress", "fatigue", "wear", "energy", "
 
 
 def run_speed(
-    model: ContactModel,
-    speed: float,
-    scene: Scene,
-    choice: IntegrationChoice,
-    results: Sequence[str],
-    *,
-    spectrum_highest_order: int,
-    wear_angles: int,
-    stress: StressOperators | None = None,
+    model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice, results: Sequence[str], **kept: Any
 ) -> dict[str, np.ndarray]:
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
     Returned are arrays of speed_arrays.ARRAYS, by name: those of `results` and all others that blade and scene have.
-    `stress`: operators by region. A rotor ends when one of its blades diverges, whose snapshots are kept then.
-    Raises what Problem raises.
+    `kept`: sizes and operators of the stress, see numbers_of_run. A rotor ends when one of its blades diverges, whose
+    snapshots are kept then. Raises what Problem raises.
     """
-    run = simulation_of(model, speed, scene, choice).run()
-    sizes = {"spectrum_highest_order": spectrum_highest_order, "wear_angles": wear_angles}
-    return numbers_of_run(run, results, **sizes, stress=stress)
+    return numbers_of_run(simulation_of(model, speed, scene, choice).run(), results, **kept)
 
 
 def simulation_of(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Simulation | RotorSimulation:
@@ -63,7 +53,10 @@ def numbers_of_run(
     wear_angles: int,
     stress: StressOperators | None = None,
 ) -> dict[str, np.ndarray]:
-    """Numbers of a run that is done: see run_speed."""
+    """Numbers of a run that is done: see run_speed.
+
+    `spectrum_highest_order`: of the kept spectrum; `wear_angles`: of the kept wear; `stress`: operators by region.
+    """
     problem, scene, ended = run.problem, run.problem.scene, run.first_diverged
     choice, model = problem.choice, problem.model
     stress = None if stress is None else operators_at(stress, problem.speed)
