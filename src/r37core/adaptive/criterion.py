@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
-import xarray as xr
+from numpy import ndarray
+from xarray import Dataset
 
 from r37core.base.peaks import prominent_peaks
 from r37core.base.speeds import RefinedRange
@@ -18,7 +19,7 @@ LEAST_OF_A_ROUND = 16
 """Speeds that a round may ask for where so many are left: each round makes Snakemake plan the whole run again."""
 
 
-def dense_ranges(campbell: xr.Dataset, windows: Sequence[Window]) -> list[tuple[float, float, float]]:
+def dense_ranges(campbell: Dataset, windows: Sequence[Window]) -> list[tuple[float, float, float]]:
     """Windows above the crossings of one blade's Campbell diagram: first and last speed, longest interval (rad/s)."""
     windowed = []
     for window in windows:
@@ -66,14 +67,14 @@ def next_speeds(grid: RefinedRange, measured: Mapping[float, Sequence[float]], c
     return [grid.speed(int(indices[i] + indices[i + 1]) // 2) for i in sorted(chosen)]
 
 
-def _grid_indices(grid: RefinedRange, speeds: np.ndarray) -> np.ndarray:
+def _grid_indices(grid: RefinedRange, speeds: ndarray) -> ndarray:
     """Index on the grid of each speed, -1 for one that is not on it."""
     nearest = np.rint((speeds / grid.unit - grid.start) / grid.refine_to).astype(int)
     pairs = zip(nearest, speeds, strict=True)
     return np.where([0 <= index <= grid.last and grid.speed(int(index)) == speed for index, speed in pairs], nearest, -1)
 
 
-def _worth(measured: np.ndarray, places: np.ndarray, choice: RefinementChoice) -> np.ndarray:
+def _worth(measured: ndarray, places: ndarray, choice: RefinementChoice) -> ndarray:
     """Worth of halving each interval, shape (places - 1,): 0 for nothing, else the height in shares of a curve's top.
 
     Where the danger changes it is that of a top: borders of dangerous and unknown speeds make the lengths that blades are
@@ -94,7 +95,7 @@ def _worth(measured: np.ndarray, places: np.ndarray, choice: RefinementChoice) -
     return worth
 
 
-def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:
+def _near_a_peak(curve: ndarray, choice: RefinementChoice) -> ndarray:
     """Mask of the intervals that touch a peak or, next to it without a gap, points within the share `peak` of its height."""
     # the lowest value at both ends, so that a peak on the first or last speed counts and a level curve has none
     peaks = prominent_peaks(np.concatenate([[curve.min()], curve, [curve.min()]]), choice.prominence)

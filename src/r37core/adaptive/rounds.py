@@ -7,7 +7,7 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 from r37core.base.io import read_json, readable, write_json
 from r37core.base.speeds import SpeedPlan
@@ -29,7 +29,7 @@ class Round:
     measured: Mapping[float, Sequence[float]] = field(default_factory=dict)
 
 
-def first_round(plan: SpeedPlan, campbell: xr.Dataset, choice: RefinementChoice) -> Round:
+def first_round(plan: SpeedPlan, campbell: Dataset, choice: RefinementChoice) -> Round:
     """The certain speeds of the plan, and those in the windows above the crossings of one blade's Campbell diagram."""
     expected = dense_ranges(campbell, choice.windows)
     windows = {speed for grid in plan.refined for speed in window_speeds(grid, expected)}

@@ -10,6 +10,7 @@ from typing import Any
 import netCDF4
 import numpy as np
 import xarray as xr
+from xarray import Dataset
 
 from .io import FILE_ATTRIBUTES, atomic_write, readable
 from .units import RPM
@@ -46,13 +47,13 @@ def new_netcdf(file: Path | str, provenance: Mapping[str, object]) -> Iterator[n
 
 
 @contextmanager
-def open_dataset(file: Path | str, group: str | None = None) -> Iterator[xr.Dataset]:
+def open_dataset(file: Path | str, group: str | None = None) -> Iterator[Dataset]:
     """A netCDF file, or a group of it, as a dataset to read from. Raises InputFileError when it cannot be read."""
     with NETCDF_LOCK, readable(file), xr.open_dataset(file, engine="netcdf4", group=group) as dataset:
         yield dataset
 
 
-def lazy_dataset(file: Path | str) -> xr.Dataset:
+def lazy_dataset(file: Path | str) -> Dataset:
     """A netCDF file as a dataset whose values are read when they are used. Raises InputFileError when it cannot be read."""
     with NETCDF_LOCK, readable(file):
         return xr.open_dataset(file, engine="netcdf4", lock=NETCDF_LOCK)
@@ -69,7 +70,7 @@ def dataset_of(
     coordinates: Mapping[str, Variable],
     labels: Mapping[str, Any],
     along: Sequence[str] = (),
-) -> xr.Dataset:
+) -> Dataset:
     """The dataset of the `values`, by name, that tables of variables and coordinates describe; an axis of speeds also in rpm.
 
     `labels`: of dimensions that are counted by names; `along`: dimensions of all variables, before their own.
@@ -86,10 +87,10 @@ def dataset_of(
     if "speed" in axes:
         speeds = {"speed": axes["speed"], "speed_rpm": (SPEED_RPM.dims, RPM * axes["speed"][1], SPEED_RPM.attributes)}
         axes = speeds | axes
-    return xr.Dataset(described(variables, along), {**labels, **axes})
+    return Dataset(described(variables, along), {**labels, **axes})
 
 
-def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
+def write_dataset(dataset: Dataset, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
     """Write a dataset as netCDF4, atomically, with version and `provenance` as global attributes.
 
     Coordinates carry no fill value, as the CF conventions ask. Arrays carry checksums, so that reading finds a flipped bit.
@@ -98,7 +99,7 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
     write_groups([("/", dataset.assign_attrs(attributes))], file, {})
 
 
-def write_groups(groups: Iterable[tuple[str, xr.Dataset]], file: Path | str, provenance: Mapping[str, object]) -> None:
+def write_groups(groups: Iterable[tuple[str, Dataset]], file: Path | str, provenance: Mapping[str, object]) -> None:
     """Write datasets as the groups of these names of one netCDF4 file, as `write_dataset` does, one after another."""
     with new_netcdf(file, provenance) as opened:
         for name, dataset in groups:
@@ -106,7 +107,7 @@ def write_groups(groups: Iterable[tuple[str, xr.Dataset]], file: Path | str, pro
             dataset.dump_to_store(xr.backends.NetCDF4DataStore(opened, name, "a"), encoding=_encoding(dataset))
 
 
-def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
+def _encoding(dataset: Dataset) -> dict[str, dict[str, Any]]:
     encoding: dict[str, dict[str, Any]] = {}
     for name, variable in dataset.variables.items():
         filled = name in dataset.data_vars and variable.dtype.kind == "f"
@@ -116,7 +117,7 @@ def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
     return encoding
 
 
-def read_dataset(file: Path | str, part: Mapping[str, object] | None = None, group: str | None = None) -> xr.Dataset:
+def read_dataset(file: Path | str, part: Mapping[str, object] | None = None, group: str | None = None) -> Dataset:
     """Read a netCDF file, or a group of it, into memory; InputFileError when it cannot be read.
 
     `part`: label of a dimension, as far as the file has this, at which alone it is read; or several, of which it may lack some.

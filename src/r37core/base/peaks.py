@@ -1,9 +1,10 @@
 """Peaks of a curve by their prominence, the same as scipy.signal finds, whose import takes as long as ten runs. Light."""
 
 import numpy as np
+from numpy import ndarray
 
 
-def peaks_with_prominence(curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def peaks_with_prominence(curve: ndarray) -> tuple[ndarray, ndarray]:
     """Indices of the peaks of a `curve`, shape (points,), ascending, and the prominence of each.
 
     A peak is higher than what stands on both of its sides: the ends are none. Of a plateau it is the middle. Its prominence is
@@ -22,13 +23,13 @@ def peaks_with_prominence(curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return middles[places], prominences
 
 
-def prominent_peaks(curve: np.ndarray, prominence: float = 0.0) -> np.ndarray:
+def prominent_peaks(curve: ndarray, prominence: float = 0.0) -> ndarray:
     """Indices of the peaks of a curve of at least this prominence, ascending."""
     peaks, prominences = peaks_with_prominence(curve)
     return peaks[prominences >= prominence]
 
 
-def half_width(curve: np.ndarray, index: int) -> int:
+def half_width(curve: ndarray, index: int) -> int:
     """Number of points about the peak at an index that are not below half of its prominence; 0 of what is not a peak."""
     peaks, prominences = peaks_with_prominence(curve)
     if index not in peaks:

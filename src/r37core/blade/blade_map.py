@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 
 from .profile import PARAMETER_UNITS, PRESSURE, SUCTION, BladeShapeError, Profile
 from .stacking import Placement, conical_stacking, span_weights
@@ -20,19 +21,19 @@ class BladeMap(ABC):
     `thickness_sign`: 1 where the suction side is at the larger angle about the axis, -1 where the pressure side is.
     """
 
-    spans: np.ndarray
+    spans: ndarray
     round_edges: bool
     thickness_sign: float = 1.0
 
     @abstractmethod
-    def position(self, chord, span, thickness) -> np.ndarray:
+    def position(self, chord, span, thickness) -> ndarray:
         """Cartesian coordinates (m), shape (points, 3), of parameter points given as arrays of one shape (points,)."""
 
     @abstractmethod
     def described(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """Variables and coordinates of geometry.nc from which the blade can be made again, as xarray takes them."""
 
-    def normal(self, chord, span) -> np.ndarray:
+    def normal(self, chord, span) -> ndarray:
         """Unit vector from the pressure to the suction side, shape (points, 3)."""
         ones = np.ones_like(chord)
         across = self.position(chord, span, ones) - self.position(chord, span, -ones)
@@ -58,7 +59,7 @@ class BladeMap(ABC):
         weight = np.einsum("i,j,k->ijk", chord_weight, span_weight, thickness_weight).ravel()
         return float(determinant @ weight)
 
-    def _determinant(self, chord: np.ndarray, span: np.ndarray, thickness: np.ndarray) -> np.ndarray:
+    def _determinant(self, chord: ndarray, span: ndarray, thickness: ndarray) -> ndarray:
         step = 1e-5
         place = np.array([chord, span, thickness])
         shifts = step * np.eye(3)[:, :, None]
@@ -81,12 +82,12 @@ class BladeMap(ABC):
             )
 
 
-def edge_share(distance: np.ndarray, radius: float) -> np.ndarray:
+def edge_share(distance: ndarray, radius: float) -> ndarray:
     """How far lines chord = const at a `distance` (m) from a round edge of this `radius` (m) follow its arc, 1 to 0."""
     return np.clip(1.0 - distance / (_BULGE_REACH * radius), 0.0, None) ** 2
 
 
-def _composite_gauss(edges: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+def _composite_gauss(edges: ndarray, order: int) -> tuple[ndarray, ndarray]:
     nodes, weights = np.polynomial.legendre.leggauss(order)
     half = np.diff(edges) / 2.0
     points = (edges[:-1] + half)[:, None] + half[:, None] * nodes
@@ -112,7 +113,7 @@ class Blade(BladeMap):
         self._weights = span_weights(self.spans)
         self._check_orientation()
 
-    def position(self, chord, span, thickness) -> np.ndarray:
+    def position(self, chord, span, thickness) -> ndarray:
         """Cartesian coordinates (m), shape (points, 3), of parameter points given as arrays of one shape (points,)."""
         chord, span, thickness = (np.atleast_1d(np.asarray(a, dtype=float)) for a in (chord, span, thickness))
         weights, share = self._weights(span), (1.0 + thickness) / 2.0

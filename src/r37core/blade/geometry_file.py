@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import function_named, readable
@@ -38,7 +38,7 @@ def write_geometry(blade: BladeMap, file: Path | str, provenance: Mapping[str, o
         "chord": ("chord", _STEPS, about("1", "fraction of the surface's length from the leading edge")),
         "span_sample": ("span_sample", _STEPS, about("1", "fraction of the span from the hub")),
     }
-    dataset = xr.Dataset(data, coordinates, attrs={"edges": "round" if blade.round_edges else "blunt"})
+    dataset = Dataset(data, coordinates, attrs={"edges": "round" if blade.round_edges else "blunt"})
     write_dataset(dataset, file, provenance)
 
 

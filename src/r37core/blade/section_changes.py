@@ -14,6 +14,7 @@ from typing import Self
 
 import numpy as np
 import scipy
+from numpy import ndarray
 
 from r37core.base.io import CarriedError
 
@@ -41,7 +42,7 @@ class SpanLaw:
         """Linear law: in proportion to the span from hub to tip."""
         return cls((0.0, 1.0), (hub, tip))
 
-    def evaluate(self, spans: Sequence[float]) -> np.ndarray:
+    def evaluate(self, spans: Sequence[float]) -> ndarray:
         """Values at span fractions, shape (spans,): a spline as that of sweep and lean, at most cubic.
 
         Equal values give themselves to the last bit, so that a law of neutral values changes nothing.
@@ -113,7 +114,7 @@ def changed_profile(profile: ProfileParameters, change: SectionChange) -> Profil
     return profile
 
 
-def _arcs(cone: Cone, angles: np.ndarray, lengths: np.ndarray) -> tuple[ConstantRatePath, ConstantRatePath]:
+def _arcs(cone: Cone, angles: ndarray, lengths: ndarray) -> tuple[ConstantRatePath, ConstantRatePath]:
     """Two arcs with `angles` (rad) at inlet, transition and outlet, and `lengths` (m)."""
     rates = np.diff(angles) / lengths
     front = ConstantRatePath(cone, 0.0, 0.0, angles[0], rates[0])
@@ -121,7 +122,7 @@ def _arcs(cone: Cone, angles: np.ndarray, lengths: np.ndarray) -> tuple[Constant
     return front, ConstantRatePath(cone, m, theta, angles[1], rates[1])
 
 
-def _chord(cone: Cone, angles: np.ndarray, lengths: np.ndarray) -> np.ndarray:
+def _chord(cone: Cone, angles: ndarray, lengths: ndarray) -> ndarray:
     """Direction (rad) and length (m) of the chord line of two arcs: its angle to the axis, and on the unrolled cone.
 
     The angle is that of `Profile.stagger`.
@@ -145,7 +146,7 @@ def _redrawn(profile: ProfileParameters, change: SectionChange) -> ProfileParame
     # the added camber is spread evenly over the length
     cambered = angles + change.camber * (0.5 - np.array([0.0, lengths[0], lengths.sum()]) / lengths.sum())
 
-    def miss(unknowns: np.ndarray) -> np.ndarray:
+    def miss(unknowns: ndarray) -> ndarray:
         rotation, scale = unknowns
         ends = _chord(cone, cambered + rotation, scale * lengths)
         return np.array([ends[0] - wanted[0], ends[1] / wanted[1] - 1.0])

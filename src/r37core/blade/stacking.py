@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import scipy
+from numpy import ndarray
 
 from .profile import BladeShapeError, Profile, area_and_centroid
 
@@ -25,14 +26,14 @@ _NEAREST = 0.04
 class Placement:
     """Rigid motion of each profile on its own cone: axial shift (m) and rotation about the axis (rad), shape (profiles,)."""
 
-    axial: np.ndarray
-    rotation: np.ndarray
+    axial: ndarray
+    rotation: ndarray
 
     def __add__(self, other: Placement) -> Placement:
         return Placement(self.axial + other.axial, self.rotation + other.rotation)
 
 
-def span_weights(spans: np.ndarray) -> scipy.interpolate.CubicSpline:
+def span_weights(spans: ndarray) -> scipy.interpolate.CubicSpline:
     """Not-a-knot spline: span fractions (points,) -> weights, shape (points, profiles), of profiles at ascending `spans`.
 
     A value at a span is the sum of weight * profile value; beyond the profiles the end polynomials go on.
@@ -77,11 +78,11 @@ def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placeme
     outlines = np.array([[cone.radius(m), theta, cone.axial(m)] for cone, m, theta in drawn])
     heights = np.array([p.cone.radius(p.centroid[0]) for p in profiles])
 
-    def added(moves: np.ndarray) -> Placement:
+    def added(moves: ndarray) -> Placement:
         axial, tangential = np.split(moves, 2)
         return Placement(axial - axial[0], tangential / heights)
 
-    def offsets(moves: np.ndarray) -> np.ndarray:
+    def offsets(moves: ndarray) -> ndarray:
         """Offset of every section's centre of area from the stacking line (m), axial then tangential."""
         placement = start + added(moves)
         placed = outlines + np.stack([0.0 * heights, placement.rotation, placement.axial], axis=1)[:, :, None]
@@ -105,7 +106,7 @@ def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placeme
 
 
 def _section_centroid(
-    weights: scipy.interpolate.CubicSpline, outlines: np.ndarray, profile: Profile, height: float
+    weights: scipy.interpolate.CubicSpline, outlines: ndarray, profile: Profile, height: float
 ) -> tuple[float, float]:
     """Centre of area (y, z) of the section x = height; each outline point runs along the span until it meets the plane."""
     v = np.full(outlines.shape[2], profile.parameters.span)
@@ -126,7 +127,7 @@ def _section_centroid(
     )
 
 
-def sweep_and_lean(spans: np.ndarray, table: np.ndarray) -> Placement:
+def sweep_and_lean(spans: ndarray, table: ndarray) -> Placement:
     """Placement of profiles at `spans` (fractions) from a table with columns span, sweep (m), lean (rad).
 
     Interpolated by the cubic B-spline through the table's rows (lower order with fewer than four). Sweep is positive

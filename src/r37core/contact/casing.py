@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.declared import Key
 
@@ -63,7 +64,7 @@ class Casing:
     ring: tuple[RingMode, ...] = ()
     ring_radius: float | None = None
 
-    def shape(self, theta: np.ndarray) -> np.ndarray:
+    def shape(self, theta: ndarray) -> ndarray:
         """f(theta), between 0 and 1, for angles in rad."""
         if self.lobes == 0:
             return np.zeros_like(theta)
@@ -90,7 +91,7 @@ class Casing:
             return 0.0
         return self.amplitude * self.clearance if self.height is None else self.height
 
-    def lobe(self, theta: np.ndarray, time: np.ndarray, rise_time: float) -> np.ndarray:
+    def lobe(self, theta: ndarray, time: ndarray, rise_time: float) -> ndarray:
         """Height (m) of the lobes, inwards, at angles (rad) and times (s); they grow to 99% in `rise_time` (s)."""
         grown = 1.0 - np.exp(-rise_rate(rise_time) * np.asarray(time)) if rise_time > 0.0 else 1.0
         return self.lobe_height * grown * self.shape(theta)
@@ -99,7 +100,7 @@ class Casing:
         """True where the casing's growth, if it has any, is given up to a speed (rad/s)."""
         return not self.growth_speeds or speed <= self.growth_speeds[-1] * (1.0 + _ROUNDED)
 
-    def opening(self, speeds: np.ndarray) -> np.ndarray:
+    def opening(self, speeds: ndarray) -> ndarray:
         """Clearance (m) that the casing's growth adds at `speeds` (rad/s), shape (speeds,).
 
         Raises ValueError beyond the speeds that it is given for.
@@ -112,7 +113,7 @@ class Casing:
             )
         return np.interp(speeds, self.growth_speeds, self.growth)
 
-    def change_at(self, revolutions: np.ndarray) -> np.ndarray:
+    def change_at(self, revolutions: ndarray) -> ndarray:
         """Clearance (m) that so many revolutions of a run add, in their shape."""
         return np.interp(revolutions, self.change_revolutions or (0.0,), self.change or (0.0,))
 
@@ -127,7 +128,7 @@ def rise_rate(rise_time: float) -> float:
     return -np.log(0.01) / rise_time if rise_time > 0.0 else np.inf
 
 
-def approach(radius: np.ndarray, displacement: np.ndarray, cone_angle: float) -> np.ndarray:
+def approach(radius: ndarray, displacement: ndarray, cone_angle: float) -> ndarray:
     """Distance (m) by which displaced nodes come nearer to a cone about the axis, shape (...): exact for large displacements.
 
     cos(alpha) (sqrt((r + u_r)^2 + u_theta^2) - r) - sin(alpha) u_z of nodes at `radius` r (m), shape (...), with the radial,
@@ -138,7 +139,7 @@ def approach(radius: np.ndarray, displacement: np.ndarray, cone_angle: float) ->
     return casing_axes(np.stack([outwards, np.zeros_like(outwards), axial]), cone_angle)[0]
 
 
-def casing_axes(cylindrical: np.ndarray, cone_angle: float) -> np.ndarray:
+def casing_axes(cylindrical: ndarray, cone_angle: float) -> ndarray:
     """Turn radial, tangential and axial parts into those along the normal, the tangent and the meridian of a cone.
 
     `cylindrical`, shape (3, ...); `cone_angle` alpha (rad). Normal cos(alpha) u_r - sin(alpha) u_z, positive towards the

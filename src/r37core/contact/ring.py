@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.declared import Key
 
@@ -116,30 +117,30 @@ class RingMotion:
 
     modes: tuple[RingMode, ...]
 
-    def _twice(self, values: Sequence[float]) -> np.ndarray:
+    def _twice(self, values: Sequence[float]) -> ndarray:
         return np.tile(np.array(values, dtype=float), 2)
 
     @property
-    def nodal_diameters(self) -> np.ndarray:
+    def nodal_diameters(self) -> ndarray:
         """Nodal diameters of each mode, shape (modes,)."""
         return np.array([mode.nodal_diameter for mode in self.modes], dtype=float)
 
     @property
-    def frequencies(self) -> np.ndarray:
+    def frequencies(self) -> ndarray:
         """Angular frequencies (rad/s), in the frame that does not turn, shape (2 modes,)."""
         return self._twice([mode.frequency for mode in self.modes])
 
     @property
-    def damping_ratios(self) -> np.ndarray:
+    def damping_ratios(self) -> ndarray:
         """Damping ratio of each coordinate, shape (2 modes,)."""
         return self._twice([mode.damping_ratio for mode in self.modes])
 
     @property
-    def size(self) -> np.ndarray:
+    def size(self) -> ndarray:
         """Largest radial displacement per coordinate (kg^-1/2), tangential without a radial one, shape (2 modes,)."""
         return self._twice([(mode.radial or mode.tangential) / np.sqrt(mode.modal_mass) for mode in self.modes])
 
-    def displacement(self, theta: np.ndarray) -> np.ndarray:
+    def displacement(self, theta: ndarray) -> ndarray:
         """Radial, tangential and axial displacement (m) of the casing at angles (rad), per coordinate.
 
         `theta`, shape (nodes,). Returns shape (3, nodes, 2 modes).
@@ -151,7 +152,7 @@ class RingMotion:
         along = np.hstack([-tangential * sine, tangential * cosine])
         return np.stack([out, along, np.zeros_like(out)])
 
-    def turned(self, coordinates: np.ndarray, angle: float) -> np.ndarray:
+    def turned(self, coordinates: ndarray, angle: float) -> ndarray:
         """Coordinates in a frame turned by `angle` (rad) towards negative theta, shape (..., 2 modes)."""
         cosine, sine = (function(angle * self.nodal_diameters) for function in (np.cos, np.sin))
         first, second = np.split(coordinates, 2, axis=-1)

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Literal, Self
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.declared import Key, speed_keys
 
@@ -71,7 +72,7 @@ class Lining:
         """Arc length (m) of a bar at `radius` (m)."""
         return 2.0 * np.pi * radius / self.bars
 
-    def pressed_areas(self, tip_lengths: np.ndarray, radius: float) -> np.ndarray:
+    def pressed_areas(self, tip_lengths: ndarray, radius: float) -> ndarray:
         """Area (m2) of lining that each contact node presses at a time, shape (nodes,).
 
         `tip_lengths` (m), shape (nodes,): lengths of tip that the nodes stand for; `radius` (m) of the tip, of the published
@@ -88,7 +89,7 @@ class Lining:
         area = self.arc(radius) * (self.bar_width or 0.0) if self.bar_area is None else self.bar_area
         return np.full(len(tip_lengths), area)
 
-    def bar_surfaces(self, tip_lengths: np.ndarray, radius: float) -> np.ndarray:
+    def bar_surfaces(self, tip_lengths: ndarray, radius: float) -> ndarray:
         """Surface (m2) of the casing under a bar of each contact node's ring, shape (nodes,); arguments of pressed_areas."""
         return self.pressed_areas(tip_lengths, radius) if self.published else tip_lengths * self.arc(radius)
 
@@ -106,7 +107,7 @@ class BareCasing:
     bars: int = 0
     stiffness: float = 0.0
 
-    def pressed_areas(self, tip_lengths: np.ndarray, radius: float) -> np.ndarray:
+    def pressed_areas(self, tip_lengths: ndarray, radius: float) -> ndarray:
         """Area (m2) of lining that each contact node presses at a time, shape (nodes,): 0."""
         return np.zeros(len(tip_lengths))
 
@@ -141,7 +142,7 @@ class DampingTable:
     frequencies: Annotated[tuple[float, ...], Key("Ascending frequencies", "_hz", ge=0, le=1e12, entries=2)]
     ratios: Annotated[tuple[float, ...], Key("Damping ratio at each frequency", ge=0, lt=1, entries=2)]
 
-    def damping(self, frequencies: np.ndarray, speed: float | np.ndarray) -> np.ndarray:
+    def damping(self, frequencies: ndarray, speed: float | ndarray) -> ndarray:
         """Damping ratios of modes: a damping law has this method, with the arguments and shapes of Scene.damping."""
         return np.interp(frequencies / (2.0 * np.pi), self.frequencies, self.ratios)
 
@@ -190,7 +191,7 @@ class Scene:
         """The lining; without one a law that wears nothing."""
         return self.lining or BareCasing()
 
-    def damping(self, frequencies: np.ndarray, speed: float | np.ndarray) -> float | np.ndarray:
+    def damping(self, frequencies: ndarray, speed: float | ndarray) -> float | ndarray:
         """Damping ratios of modes of the `frequencies` (rad/s), in their shape; one number where it is that of every mode.
 
         `frequencies`, shape (modes,) at a `speed` (rad/s), or (speeds, modes): all modes from the lowest on.

@@ -5,7 +5,8 @@ import gzip
 from collections.abc import Mapping
 
 import numpy as np
-import xarray as xr
+from numpy import ndarray
+from xarray import DataArray, Dataset
 
 from r37core.base.units import shown_unit
 from r37core.figures.danger_rows import causes_text, kinds_of
@@ -44,7 +45,7 @@ ORDERS_PER_STEP = 0.1
 """Width of a spectrum's bins in engine orders; a bin has the largest amplitude in it."""
 
 
-def explorer_contents(datasets: Mapping[str, xr.Dataset], operating: OperatingRange | None = None) -> dict[str, object]:
+def explorer_contents(datasets: Mapping[str, Dataset], operating: OperatingRange | None = None) -> dict[str, object]:
     """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress and wear.
 
     `operating`: speeds that are shaded.
@@ -71,14 +72,14 @@ def explorer_contents(datasets: Mapping[str, xr.Dataset], operating: OperatingRa
     }
 
 
-def _like(dataset: xr.Dataset, rms: xr.Dataset) -> xr.Dataset:
+def _like(dataset: Dataset, rms: Dataset) -> Dataset:
     """The dataset with all blades, scenes and speeds of the rms; NaN where it has none."""
     if "tip_point" in dataset.dims:
         dataset = dataset.sel(tip_point="leading_edge")
     return dataset.reindex({name: rms[name] for name in ("blade", "scene", "speed")})
 
 
-def _campbell(campbell: xr.Dataset) -> dict[str, object]:
+def _campbell(campbell: Dataset) -> dict[str, object]:
     return {
         "modes": [str(name) for name in campbell["mode"].values],
         "orders": [int(order) for order in campbell["engine_order"].values],
@@ -88,19 +89,19 @@ def _campbell(campbell: xr.Dataset) -> dict[str, object]:
     }
 
 
-def _described(values: xr.DataArray) -> tuple[dict[str, object], float]:
+def _described(values: DataArray) -> tuple[dict[str, object], float]:
     """Name, label and shown unit of a variable, from its attributes, and the factor from SI to that unit."""
     attributes = VARIABLES[str(values.name)].attributes | values.attrs
     unit, factor = shown_unit(attributes["units"])
     return {"name": values.name, "label": attributes["long_name"], "unit": unit or "1"}, factor
 
 
-def _curve(variable: xr.DataArray) -> dict[str, object]:
+def _curve(variable: DataArray) -> dict[str, object]:
     about, factor = _described(variable)
     return about | {"values": packed(factor * variable.transpose("blade", "scene", "speed").values)}
 
 
-def _danger(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> dict[str, object]:
+def _danger(datasets: Mapping[str, Dataset], blade: str, scene: str) -> dict[str, object]:
     """Ranges of speeds (rad/s) of each kind of a blade and scene, their lengths together, and limits that are left first."""
     # those that a verdict's further runs may have joined
     response = response_of({kind: datasets[kind] for kind in ("rms", "stress") if kind in datasets}, blade, scene)
@@ -112,7 +113,7 @@ def _danger(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> dict[
     }
 
 
-def _stress(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object]:
+def _stress(stress: Dataset | None, rms: Dataset) -> dict[str, object]:
     """Yield stress and, for the speeds that have it, largest stress of every revolution (MPa); each blade's region in words."""
     if stress is None:
         return {"yield_stress": None, "stress_region": {}, "history": None}
@@ -133,7 +134,7 @@ def _stress(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object]:
     }
 
 
-def _map(variable: xr.DataArray, over: str, across: np.ndarray, other: np.ndarray) -> dict[str, object]:
+def _map(variable: DataArray, over: str, across: ndarray, other: ndarray) -> dict[str, object]:
     """A map of a variable over speed and another axis, that one joined at `across`, the speeds if they are many."""
     about, factor = _described(variable)
     values = factor * variable.transpose("blade", "scene", "speed", over).values
@@ -146,43 +147,43 @@ def _map(variable: xr.DataArray, over: str, across: np.ndarray, other: np.ndarra
     }
 
 
-def _spectrum(spectrum: xr.Dataset, rms: xr.Dataset) -> dict[str, object]:
+def _spectrum(spectrum: Dataset, rms: Dataset) -> dict[str, object]:
     """Amplitude of the leading edge's normal motion (mm) over engine order."""
     starts = order_bins(spectrum["engine_order"].values)
     return _map(_like(spectrum, rms)["amplitude"], "engine_order", starts, ORDERS_PER_STEP * np.arange(len(starts)))
 
 
-def _wear(wear: xr.Dataset, rms: xr.Dataset) -> dict[str, object]:
+def _wear(wear: Dataset, rms: Dataset) -> dict[str, object]:
     """Wear (mm) over the angle (degrees) round the casing."""
     starts = bin_starts(wear.sizes["angle"], MOST_ANGLES)
     return _map(_like(wear, rms)["wear"], "angle", starts, np.degrees(wear["angle"].values[starts]))
 
 
-def packed(values: np.ndarray, bits: int = 32) -> dict[str, object]:
+def packed(values: ndarray, bits: int = 32) -> dict[str, object]:
     """Numbers as little-endian floats, compressed, in base64, with their shape; speeds take 64 bits, to stay what they are."""
     data = np.ascontiguousarray(values, dtype=f"<f{bits // 8}")
     compressed = gzip.compress(data.tobytes(), mtime=0)
     return {"shape": list(data.shape), "bits": bits, "base64": base64.b64encode(compressed).decode("ascii")}
 
 
-def rounded(values: np.ndarray) -> np.ndarray:
+def rounded(values: ndarray) -> ndarray:
     """Values with 14 binary digits, a relative error of at most 6e-5: enough for a map, and half as much to carry."""
     whole = np.ascontiguousarray(values, dtype=np.float32).view(np.uint32)
     near = ((whole + np.uint32(1 << 9)) & np.uint32(~((1 << 10) - 1) & 0xFFFFFFFF)).view(np.float32)
     return np.where(np.isfinite(values), near, np.float32(np.nan))
 
 
-def joined(values: np.ndarray, axis: int, starts: np.ndarray) -> np.ndarray:
+def joined(values: ndarray, axis: int, starts: ndarray) -> ndarray:
     """Largest of `values` in each bin along an axis; `starts`: where the bins begin. NaN where all are."""
     return np.fmax.reduceat(values, starts, axis=axis)
 
 
-def bin_starts(number: int, most: int) -> np.ndarray:
+def bin_starts(number: int, most: int) -> ndarray:
     """Where bins of equal length begin, at most `most` of them."""
     return np.arange(0, number, -(-number // most))
 
 
-def order_bins(orders: np.ndarray) -> np.ndarray:
+def order_bins(orders: ndarray) -> ndarray:
     """Where bins of ORDERS_PER_STEP begin, each centred on a multiple of it; `orders`, shape (orders,), ascend from 0."""
     bins = np.floor(orders / ORDERS_PER_STEP + 0.5 + 1e-9)
     return np.flatnonzero(np.diff(bins, prepend=-1.0) > 0.0)

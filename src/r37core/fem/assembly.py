@@ -11,11 +11,12 @@ from typing import Self
 
 import numpy as np
 import scipy.sparse as sp
+from numpy import ndarray
 
 from .elements import ELEMENTS, Element
 from .material import Material
 
-Blocks = Mapping[str, np.ndarray]
+Blocks = Mapping[str, ndarray]
 
 
 @dataclass(frozen=True)
@@ -25,9 +26,9 @@ class NodePattern:
     `slots`: for each element type, shape (elements, n, n), where the pair (a, b) of an element's nodes is stored.
     """
 
-    indptr: np.ndarray
-    indices: np.ndarray
-    slots: Mapping[str, np.ndarray]
+    indptr: ndarray
+    indices: ndarray
+    slots: Mapping[str, ndarray]
 
     @classmethod
     def build(cls, blocks: Blocks, nodes: int) -> Self:
@@ -44,18 +45,18 @@ class NodePattern:
             {name: part.reshape(pairs_of_type.shape) for (name, pairs_of_type), part in parts},
         )
 
-    def scatter(self, name: str, values: np.ndarray) -> np.ndarray:
+    def scatter(self, name: str, values: ndarray) -> ndarray:
         """Sum values of the elements of one type, shape (elements, n, n), into the pattern's entries, shape (pairs,)."""
         return np.bincount(self.slots[name].ravel(), weights=values.ravel(), minlength=len(self.indices))
 
 
-def typed_blocks(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, Element, np.ndarray]]:
+def typed_blocks(blocks: Blocks, points: ndarray) -> Iterator[tuple[str, Element, ndarray]]:
     """Name, element and node coordinates, shape (elements, n, 3), of each block of a mesh with nodes at `points`."""
     for name, nodes in blocks.items():
         yield name, ELEMENTS[name], points[nodes]
 
 
-def stiffness_points(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+def stiffness_points(blocks: Blocks, points: ndarray) -> Iterator[tuple[str, ndarray, ndarray]]:
     """Points that integrate the stiffness of each block, by its name.
 
     Gradients of the shape functions there, shape (elements, points, n, 3), and volumes (m3), shape (elements, points).
@@ -66,7 +67,7 @@ def stiffness_points(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, 
         yield name, gradients, determinant * rule_weights
 
 
-def mass_points(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, np.ndarray, np.ndarray, np.ndarray]]:
+def mass_points(blocks: Blocks, points: ndarray) -> Iterator[tuple[str, ndarray, ndarray, ndarray]]:
     """Points that integrate the mass of each block, by its name.
 
     Shape functions there, shape (points, n), determinants of the elements' Jacobians, shape (elements, points), and weights.
@@ -77,13 +78,13 @@ def mass_points(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, np.nd
         yield name, element.shape_functions(rule_points), determinant, rule_weights
 
 
-def nodal_sums(nodes: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+def nodal_sums(nodes: ndarray, values: ndarray, count: int) -> ndarray:
     """Sums, shape (count, 3), of the `values`, shape (elements, n, 3), that elements have at their `nodes`, (elements, n)."""
     axes = np.moveaxis(values, 2, 0)
     return np.stack([np.bincount(nodes.ravel(), weights=part.ravel(), minlength=count) for part in axes], axis=1)
 
 
-def assemble_stiffness(pattern: NodePattern, blocks: Blocks, points: np.ndarray, material: Material) -> np.ndarray:
+def assemble_stiffness(pattern: NodePattern, blocks: Blocks, points: ndarray, material: Material) -> ndarray:
     """Linear elastic stiffness as 3 x 3 blocks (N/m), shape (pairs, 3, 3).
 
     With H_ij = integral of dN_a/dx_i dN_b/dx_j, block (a, b) is lambda H_ij + mu H_ji + mu trace(H) delta_ij
@@ -104,7 +105,7 @@ def assemble_stiffness(pattern: NodePattern, blocks: Blocks, points: np.ndarray,
     return stiffness
 
 
-def assemble_mass(pattern: NodePattern, blocks: Blocks, points: np.ndarray, density: float) -> np.ndarray:
+def assemble_mass(pattern: NodePattern, blocks: Blocks, points: ndarray, density: float) -> ndarray:
     """Consistent mass of each node pair (kg), shape (pairs,); the matrix is this times the 3 x 3 identity."""
     mass = np.zeros(len(pattern.indices))
     for name, values, determinant, weights in mass_points(blocks, points):
@@ -113,12 +114,12 @@ def assemble_mass(pattern: NodePattern, blocks: Blocks, points: np.ndarray, dens
     return mass
 
 
-def mesh_volume(blocks: Blocks, points: np.ndarray) -> float:
+def mesh_volume(blocks: Blocks, points: ndarray) -> float:
     """Volume (m3) of a mesh with nodes at `points`, by the quadrature of the mass."""
     return sum(float(np.sum(determinant * weights)) for *_, determinant, weights in mass_points(blocks, points))
 
 
-def block_matrix(pattern_indptr: np.ndarray, pattern_indices: np.ndarray, blocks: np.ndarray) -> sp.csr_array:
+def block_matrix(pattern_indptr: ndarray, pattern_indices: ndarray, blocks: ndarray) -> sp.csr_array:
     """Sparse matrix over all degrees of freedom (3 per node, x y z) from 3 x 3 blocks, shape (pairs, 3, 3)."""
     size = 3 * (len(pattern_indptr) - 1)
     return sp.csr_array(sp.bsr_array((blocks, pattern_indices, pattern_indptr), shape=(size, size)))

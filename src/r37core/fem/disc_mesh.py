@@ -11,6 +11,7 @@ from itertools import chain, pairwise
 
 import gmsh
 import numpy as np
+from numpy import ndarray
 
 from r37core.blade.profile import BladeShapeError
 from r37core.mesh.blade_mesh import BladeMesh
@@ -70,7 +71,7 @@ class _Root:
         low, high = (chord[self.rows[2 * station][0]] for station in self.stations)
         self.above_web = np.abs(chord[self.faces].mean(axis=1) - 0.5 * (low + high)) < 0.5 * (high - low)
 
-    def straightened(self, places: np.ndarray) -> np.ndarray:
+    def straightened(self, places: ndarray) -> ndarray:
         """z of places, shape (n, 2), at the bottom of the rim, where the lines above the web's sides are straight."""
         across, half = places[:, 0] - self.stagger(places[:, 1]) - self.middle, 0.5 * self.pitch
         bent = []
@@ -127,7 +128,7 @@ def mesh_disc(blade: BladeMesh, disc: Disc, location: str = "disc") -> BladeMesh
     )
 
 
-def _mesh_top(root: _Root) -> tuple[np.ndarray, dict[str, tuple[np.ndarray, np.ndarray]], np.ndarray]:
+def _mesh_top(root: _Root) -> tuple[ndarray, dict[str, tuple[ndarray, ndarray]], ndarray]:
     """Places of the top's nodes, shape (nodes, 2), the root's first; its faces, by elements below, and which are above the web.
 
     Faces have corners and then mid-nodes, shape (faces, 6 or 8). Last the nodes of the low cut side and of the high one, shape
@@ -187,7 +188,7 @@ def _mesh_top(root: _Root) -> tuple[np.ndarray, dict[str, tuple[np.ndarray, np.n
     return places, {kind: (_upright(nodes, places), above) for kind, (nodes, above) in below.items()}, pairs
 
 
-def _upright(faces: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _upright(faces: ndarray, places: ndarray) -> ndarray:
     """The faces, corners and then mid-nodes, each turned so that its corners run from the first to the second axis."""
     corners, middles = np.split(faces, 2, axis=1)
     x, y = places[corners].transpose(2, 0, 1)

@@ -14,6 +14,7 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
+from numpy import ndarray
 
 from .quadrature import Rule, box_rule, tetrahedron_rule, wedge_rule
 
@@ -26,7 +27,7 @@ class Shape:
     from outside; `ideal`: determinant of the edges at a corner of the ideal element, whose edges have length 1.
     """
 
-    corners: np.ndarray
+    corners: ndarray
     edges: tuple[tuple[int, int], ...]
     faces: tuple[tuple[int, ...], ...]
     ideal: float
@@ -48,7 +49,7 @@ class Element:
     mass_rule: Rule
 
     @cached_property
-    def exponents(self) -> np.ndarray:
+    def exponents(self) -> ndarray:
         """Exponents of the monomials, shape (n, 3)."""
         return np.array([e for e in product(range(3), repeat=3) if self.spans(*e)])
 
@@ -69,21 +70,21 @@ class Element:
         return {frozenset(edge): node for node, edge in numbered if self.quadratic}
 
     @cached_property
-    def nodes(self) -> np.ndarray:
+    def nodes(self) -> ndarray:
         """Local coordinates of the nodes, shape (n, 3)."""
         corners = self.shape.corners
         return np.array([*corners, *(corners[list(edge)].mean(axis=0) for edge in self.edges)])
 
     @cached_property
-    def _coefficients(self) -> np.ndarray:
+    def _coefficients(self) -> ndarray:
         # all are multiples of 1/8: rounding takes away the inverse's round-off
         return np.round(np.linalg.inv(_monomials(self.nodes, self.exponents)), 12)
 
-    def shape_functions(self, points: np.ndarray) -> np.ndarray:
+    def shape_functions(self, points: ndarray) -> ndarray:
         """Values of the shape functions, shape (points, n), at local `points`, shape (points, 3)."""
         return _monomials(points, self.exponents) @ self._coefficients
 
-    def shape_gradients(self, points: np.ndarray) -> np.ndarray:
+    def shape_gradients(self, points: ndarray) -> ndarray:
         """Local derivatives of the shape functions, shape (points, n, 3), at local `points`, shape (points, 3)."""
         slopes = []
         for axis in range(3):
@@ -91,14 +92,14 @@ class Element:
             slopes.append((_monomials(points, lowered) * self.exponents[:, axis]) @ self._coefficients)
         return np.stack(slopes, axis=2)
 
-    def jacobian(self, coordinates: np.ndarray, points: np.ndarray) -> np.ndarray:
+    def jacobian(self, coordinates: ndarray, points: ndarray) -> ndarray:
         """Derivatives of x_i by local coordinate k, shape (elements, points, 3, 3).
 
         `coordinates`: nodes of each element, shape (elements, n, 3); `points`: local points, shape (points, 3).
         """
         return np.einsum("qak,eai->eqik", self.shape_gradients(points), coordinates, optimize=True)
 
-    def physical_gradients(self, coordinates: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def physical_gradients(self, coordinates: ndarray, points: ndarray) -> tuple[ndarray, ndarray]:
         """Shape-function gradients in space, shape (elements, points, n, 3), and determinants, shape (elements, points).
 
         `coordinates`: nodes of each element, shape (elements, n, 3); `points`: local points, shape (points, 3).
@@ -116,15 +117,15 @@ class Element:
         return tuple(faces)
 
     @cached_property
-    def mirrored(self) -> np.ndarray:
+    def mirrored(self) -> ndarray:
         """Order of the nodes that turns the element inside out, shape (n,)."""
         swapped = self.nodes[:, [1, 0, 2]]
         return np.abs(swapped[:, None] - self.nodes).sum(axis=2).argmin(axis=1)
 
     @cached_property
-    def edge_directions(self) -> np.ndarray:
+    def edge_directions(self) -> ndarray:
         """Local directions of the edges, without those parallel to another, shape (directions, 3)."""
-        directions: list[np.ndarray] = []
+        directions: list[ndarray] = []
         for face in self.shape.faces:
             for i, j in zip(face, (*face[1:], face[0]), strict=True):
                 direction = self.nodes[j] - self.nodes[i]
@@ -133,7 +134,7 @@ class Element:
         return np.array(directions)
 
 
-def _monomials(points: np.ndarray, exponents: np.ndarray) -> np.ndarray:
+def _monomials(points: ndarray, exponents: ndarray) -> ndarray:
     """x^i y^j z^k at `points`, shape (points, 3), for every row of `exponents`, shape (n, 3); result (points, n)."""
     return np.prod(np.asarray(points, dtype=float)[:, None, :] ** exponents, axis=2)
 

@@ -4,7 +4,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
+from numpy import ndarray
+from scipy.sparse import csr_array
 
 from r37core.base.io import CarriedError
 
@@ -38,7 +39,7 @@ class NoEquilibriumError(CarriedError):
 class Equilibrium:
     """Displacement (m), shape (nodes, 3), and factors of a tangent near it, which it was found with."""
 
-    displacement: np.ndarray
+    displacement: ndarray
     solve: Solve
 
 
@@ -57,17 +58,17 @@ class Rotation:
         # spin softening is minus the mass of the motion normal to the axis
         self._softening = matrices.spin_softening() if follows else None
 
-    def tangent(self, displacement: np.ndarray, speed: float) -> sp.csr_array:
+    def tangent(self, displacement: ndarray, speed: float) -> csr_array:
         """Tangent stiffness (N/m) of elastic and centrifugal forces between the unclamped degrees of freedom.
 
         At a `displacement` (m), shape (nodes, 3), and a `speed` (rad/s).
         """
         blocks = self._solid.tangent(displacement, self._pattern)
         whole = block_matrix(self._pattern.indptr, self._pattern.indices, blocks)
-        tangent = sp.csr_array(whole[self._freedoms][:, self._freedoms])
-        return tangent if self._softening is None else sp.csr_array(tangent + speed**2 * self._softening)
+        tangent = csr_array(whole[self._freedoms][:, self._freedoms])
+        return tangent if self._softening is None else csr_array(tangent + speed**2 * self._softening)
 
-    def residual(self, displacement: np.ndarray, speed: float) -> np.ndarray:
+    def residual(self, displacement: ndarray, speed: float) -> ndarray:
         """Centrifugal less elastic forces (N), shape (dofs,)."""
         load = speed**2 * self._matrices.free_load
         if self._softening is not None:
@@ -100,21 +101,21 @@ class Rotation:
                 here, square = there, reached
             yield here
 
-    def _series(self, here: Equilibrium, square: float) -> list[np.ndarray]:
+    def _series(self, here: Equilibrium, square: float) -> list[ndarray]:
         """Terms of the displacement (m) in what is added to a squared speed, from the equilibrium there on."""
         load = self._matrices.free_load
 
-        def next_term(n: int, forces: np.ndarray) -> np.ndarray:
+        def next_term(n: int, forces: ndarray) -> ndarray:
             force = (load if n == 1 else 0.0) - self.free(forces)
             if self._softening is not None:
                 force = force - self._softening @ self.free(here.displacement if n == 1 else terms[-1])
             terms.append(self.whole(here.solve(force)))
             return terms[-1]
 
-        terms: list[np.ndarray] = []
+        terms: list[ndarray] = []
         return self._solid.series(here.displacement, _ORDER, next_term)
 
-    def _corrected(self, displacement: np.ndarray, square: float) -> Equilibrium | None:
+    def _corrected(self, displacement: ndarray, square: float) -> Equilibrium | None:
         """The equilibrium at a squared speed near a displacement; None where one tangent finds none, or it is not stable."""
         speed = float(np.sqrt(square))
         solve, last = factorise(self.tangent(displacement, speed)), np.inf

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy import ndarray
 
 from .assembly import Blocks, NodePattern, nodal_sums, stiffness_points
 from .material import Material
@@ -27,28 +28,28 @@ class LargeDisplacement:
     """
 
     blocks: Blocks
-    points: np.ndarray
+    points: ndarray
     material: Material
 
     @cached_property
-    def _gradients(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    def _gradients(self) -> dict[str, tuple[ndarray, ndarray]]:
         """Gradients of the shape functions, shape (elements, points, n, 3), and volumes of the points, by element type."""
         parts = stiffness_points(self.blocks, self.points)
         return {name: (gradients, volumes) for name, gradients, volumes in parts}
 
-    def forces(self, displacement: np.ndarray) -> np.ndarray:
+    def forces(self, displacement: ndarray) -> ndarray:
         """Elastic forces of a displacement."""
 
-        def first_piola(name: str) -> np.ndarray:
+        def first_piola(name: str) -> ndarray:
             slope = self._slope(name, displacement)
             return (np.eye(3) + slope) @ self.material.stress(green_strain(slope))
 
         return self._nodal(first_piola)
 
-    def second_derivative(self, displacement: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    def second_derivative(self, displacement: ndarray, first: ndarray, second: ndarray) -> ndarray:
         """Second derivative of the forces at a displacement, along two others."""
 
-        def first_piola(name: str) -> np.ndarray:
+        def first_piola(name: str) -> ndarray:
             along = [self._slope(name, field) for field in (first, second)]
             deformation = np.eye(3) + self._slope(name, displacement)
             total = deformation @ self.material.stress(second_order_strain(*along))
@@ -58,9 +59,7 @@ class LargeDisplacement:
 
         return self._nodal(first_piola)
 
-    def series(
-        self, displacement: np.ndarray, order: int, next_term: Callable[[int, np.ndarray], np.ndarray]
-    ) -> list[np.ndarray]:
+    def series(self, displacement: ndarray, order: int, next_term: Callable[[int, ndarray], ndarray]) -> list[ndarray]:
         """Terms u_1 to u_order of displacements u_0 + a u_1 + a^2 u_2 + ..., from a `displacement` u_0 on.
 
         `next_term` gives u_n from n and the forces with a^n but for those of u_n itself, the tangent at u_0 times u_n.
@@ -70,7 +69,7 @@ class LargeDisplacement:
             slope = self._slope(name, displacement)
             slopes[name] = [np.eye(3) + slope]
             stresses[name] = [self.material.stress(green_strain(slope))]
-        terms: list[np.ndarray] = []
+        terms: list[ndarray] = []
         for n in range(1, order + 1):
             known = {}
             for name, along in slopes.items():
@@ -78,7 +77,7 @@ class LargeDisplacement:
                 strain = 0.5 * sum((along[i].swapaxes(-1, -2) @ along[n - i] for i in pairs), np.zeros_like(along[0]))
                 known[name] = self.material.stress(strain)
 
-            def first_piola(name: str, n: int = n, known: dict[str, np.ndarray] = known) -> np.ndarray:
+            def first_piola(name: str, n: int = n, known: dict[str, ndarray] = known) -> ndarray:
                 along, stress = slopes[name], stresses[name]
                 return along[0] @ known[name] + sum((along[i] @ stress[n - i] for i in range(1, n)), np.zeros_like(along[0]))
 
@@ -89,7 +88,7 @@ class LargeDisplacement:
                 along.append(slope)
         return terms
 
-    def strain_energies(self, pairs: Sequence[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+    def strain_energies(self, pairs: Sequence[tuple[ndarray, ndarray]]) -> ndarray:
         """Integrals (J) of E_p : C : E_q over the solid, shape (pairs, pairs), of the strains of second order of some pairs.
 
         E = (A^T B + B^T A)/2, with the slopes A and B of a pair of displacements (m). The third derivative of the forces along
@@ -102,7 +101,7 @@ class LargeDisplacement:
             energies += np.array([[np.vdot(strain, stress) for stress in stresses] for strain in strains])
         return 0.5 * (energies + energies.T)
 
-    def tangent(self, displacement: np.ndarray, pattern: NodePattern) -> np.ndarray:
+    def tangent(self, displacement: ndarray, pattern: NodePattern) -> ndarray:
         """Tangent stiffness (N/m) at a displacement as blocks of the pattern's node pairs, shape (pairs, 3, 3).
 
         With g_a = grad N_a, block (a, b) is the integral of lambda (F g_a)(F g_b)^T + mu (F g_b)(F g_a)^T
@@ -118,7 +117,7 @@ class LargeDisplacement:
             still, pushed = gradients, gradients @ deformation.swapaxes(-1, -2)
             size = gradients.shape[2]
 
-            def products(left: np.ndarray, right: np.ndarray, volumes: np.ndarray = volumes, size: int = size) -> np.ndarray:
+            def products(left: ndarray, right: ndarray, volumes: ndarray = volumes, size: int = size) -> ndarray:
                 weighted = (left * volumes[:, :, None, None]).reshape(len(left), len(volumes[0]), -1)
                 flat = weighted.transpose(0, 2, 1) @ right.reshape(len(left), len(volumes[0]), -1)
                 return flat.reshape(-1, size, left.shape[-1], size, right.shape[-1])
@@ -134,11 +133,11 @@ class LargeDisplacement:
                     blocks[:, i, j] += pattern.scatter(name, entry + initial if i == j else entry)
         return blocks
 
-    def _slope(self, name: str, displacement: np.ndarray) -> np.ndarray:
+    def _slope(self, name: str, displacement: ndarray) -> ndarray:
         """Derivatives H_ij of a displacement at the points of a type's elements, shape (elements, points, 3, 3)."""
         return displacement_gradient(self._gradients[name][0], displacement[self.blocks[name]])
 
-    def _nodal(self, first_piola: Callable[[str], np.ndarray]) -> np.ndarray:
+    def _nodal(self, first_piola: Callable[[str], ndarray]) -> ndarray:
         """Nodal forces of a stress, as first_piola(name of a type) gives it at the points of its elements."""
         forces = np.zeros_like(self.points)
         for name, (gradients, volumes) in self._gradients.items():

@@ -9,6 +9,8 @@ from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
+from numpy import ndarray
+from scipy.sparse import csr_array
 
 from r37core.mesh.blade_mesh import BladeMesh
 
@@ -39,40 +41,40 @@ class StructuralMatrices:
     per Omega^2 (N s2/rad2), shape (nodes, 3); `free_nodes`: unclamped node numbers.
     """
 
-    indptr: np.ndarray
-    indices: np.ndarray
-    stiffness_blocks: np.ndarray
-    mass_pairs: np.ndarray
-    geometric_pairs: np.ndarray
-    centrifugal_load: np.ndarray
-    free_nodes: np.ndarray
+    indptr: ndarray
+    indices: ndarray
+    stiffness_blocks: ndarray
+    mass_pairs: ndarray
+    geometric_pairs: ndarray
+    centrifugal_load: ndarray
+    free_nodes: ndarray
 
     @property
     def total_mass(self) -> float:
         """Mass of the blade (kg)."""
         return float(np.sum(self.mass_pairs))
 
-    def stiffness(self) -> sp.csr_array:
+    def stiffness(self) -> csr_array:
         """Elastic stiffness (N/m)."""
         pairs = self._free_pairs
         return block_matrix(pairs.indptr, pairs.indices, self.stiffness_blocks[pairs.data])
 
-    def whole(self, free: np.ndarray) -> np.ndarray:
+    def whole(self, free: ndarray) -> ndarray:
         """Field of all nodes, shape (nodes, 3, ...), from the unclamped degrees of freedom, shape (dofs, ...); 0 elsewhere."""
         field = np.zeros((len(self.indptr) - 1, 3, *free.shape[1:]))
         field[self.free_nodes] = free.reshape(-1, *field.shape[1:])
         return field
 
-    def free(self, field: np.ndarray) -> np.ndarray:
+    def free(self, field: ndarray) -> ndarray:
         """The unclamped degrees of freedom, shape (dofs,), of a field of all nodes, shape (nodes, 3)."""
         return field[self.free_nodes].ravel()
 
     @property
-    def free_load(self) -> np.ndarray:
+    def free_load(self) -> ndarray:
         """Centrifugal load per Omega^2 (N s2/rad2) on the unclamped degrees of freedom, shape (dofs,)."""
         return self.free(self.centrifugal_load)
 
-    def displaced_by(self, load: np.ndarray) -> np.ndarray:
+    def displaced_by(self, load: ndarray) -> ndarray:
         """Displacement (m), shape (nodes, 3), of the blade at rest under nodal forces (N), shape (nodes, 3)."""
         return self.whole(self.solve_at_rest(self.free(load)))
 
@@ -81,28 +83,28 @@ class StructuralMatrices:
         """Displacements (m) of the unclamped degrees of freedom under forces (N) on them; factorised at the first call."""
         return factorise(self.stiffness())
 
-    def mass(self) -> sp.csr_array:
+    def mass(self) -> csr_array:
         """Consistent mass (kg)."""
         return self._free(self.mass_pairs, np.eye(3))
 
-    def geometric_stiffness(self) -> sp.csr_array:
+    def geometric_stiffness(self) -> csr_array:
         """Geometric stiffness per Omega^2 (N/m per rad2/s2)."""
         return self._free(self.geometric_pairs, np.eye(3))
 
-    def spin_softening(self) -> sp.csr_array:
+    def spin_softening(self) -> csr_array:
         """Spin softening per Omega^2 (kg): minus the mass of the motion normal to the axis; added to the stiffness."""
         return self._free(-self.mass_pairs, _SPIN_PLANE)
 
     @cached_property
-    def _free_pairs(self) -> sp.csr_array:
+    def _free_pairs(self) -> csr_array:
         """Mask of the pairs that join unclamped nodes, in the rows and columns of these."""
-        pairs = sp.csr_array((np.arange(len(self.indices)), self.indices, self.indptr))
+        pairs = csr_array((np.arange(len(self.indices)), self.indices, self.indptr))
         return pairs[self.free_nodes][:, self.free_nodes]
 
-    def _free(self, values: np.ndarray, axes: np.ndarray) -> sp.csr_array:
+    def _free(self, values: ndarray, axes: ndarray) -> csr_array:
         """The matrix whose blocks are `values` of the pairs, shape (pairs,), times `axes`, shape (3, 3)."""
         pairs = self._free_pairs
-        return sp.csr_array(sp.kron(sp.csr_array((values[pairs.data], pairs.indices, pairs.indptr)), sp.coo_array(axes)))
+        return csr_array(sp.kron(csr_array((values[pairs.data], pairs.indices, pairs.indptr)), sp.coo_array(axes)))
 
 
 def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
@@ -131,7 +133,7 @@ def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
     return matrices
 
 
-def centrifugal_load(blocks: Blocks, points: np.ndarray, density: float) -> np.ndarray:
+def centrifugal_load(blocks: Blocks, points: ndarray, density: float) -> ndarray:
     """Nodal forces of rotation per Omega^2 (N s2/rad2), shape (nodes, 3): integral of density N (x, y, 0)."""
     load = np.zeros_like(points)
     for name, values, determinant, weights in mass_points(blocks, points):
@@ -142,8 +144,8 @@ def centrifugal_load(blocks: Blocks, points: np.ndarray, density: float) -> np.n
 
 
 def assemble_geometric_stiffness(
-    pattern: NodePattern, blocks: Blocks, points: np.ndarray, material: Material, displacement: np.ndarray
-) -> np.ndarray:
+    pattern: NodePattern, blocks: Blocks, points: ndarray, material: Material, displacement: ndarray
+) -> ndarray:
     """Geometric stiffness of each node pair (N/m per unit of the load), shape (pairs,), times the 3 x 3 identity.
 
     `displacement`: static displacement, shape (nodes, 3), whose linear stress S enters as the integral of

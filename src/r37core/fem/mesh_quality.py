@@ -3,6 +3,7 @@
 from itertools import combinations
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.blade.definition import SMALLER_CHANGES
 from r37core.mesh.blade_mesh import BladeMesh
@@ -15,13 +16,13 @@ class MeshQualityError(ValueError):
     """A mesh too distorted to compute with."""
 
 
-def mesh_quality(mesh: BladeMesh) -> np.ndarray:
+def mesh_quality(mesh: BladeMesh) -> ndarray:
     """Scaled Jacobian of every element, block after block, shape (elements,): smallest over its points; 1 is ideal."""
     parts = typed_blocks(mesh.blocks, mesh.points)
     return np.concatenate([scaled_jacobian(element, coordinates) for _, element, coordinates in parts])
 
 
-def check_quality(mesh: BladeMesh, quality: np.ndarray, allowed_minimum: float) -> None:
+def check_quality(mesh: BladeMesh, quality: ndarray, allowed_minimum: float) -> None:
     """Raise MeshQualityError when an element, of this `quality` by mesh_quality, lies below `allowed_minimum`."""
     if not np.min(quality) >= allowed_minimum:
         worst = int(np.argmin(quality))
@@ -34,7 +35,7 @@ def check_quality(mesh: BladeMesh, quality: np.ndarray, allowed_minimum: float) 
         )
 
 
-def scaled_jacobian(element: Element, coordinates: np.ndarray) -> np.ndarray:
+def scaled_jacobian(element: Element, coordinates: ndarray) -> ndarray:
     """Smallest scaled Jacobian over the points of the mass rule, shape (elements,), of nodes (elements, n, 3).
 
     Determinant over the product of the three longest independent edge vectors at the point, divided by what the ideal

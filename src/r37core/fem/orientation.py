@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.declared import Key
 from r37core.base.io import EntryRefused
@@ -53,7 +54,7 @@ class Orientation:
             )
 
     @property
-    def rows(self) -> np.ndarray:
+    def rows(self) -> ndarray:
         """Orthonormal rows x, y, z of the blade's frame in the file's axes, shape (3, 3); left-handed where mirrored.
 
         Raises OrientationError where the two directions are parallel.
@@ -66,15 +67,15 @@ class Orientation:
         y = np.cross(z, x)
         return np.stack([x, y if self.rotation == "negative" else -y, z])
 
-    def points_to_blade(self, points: np.ndarray) -> np.ndarray:
+    def points_to_blade(self, points: ndarray) -> ndarray:
         """Points of the file, shape (n, 3), in metres and the blade's frame."""
         return self.metres_per_unit * (points - np.array(self.axis_point, dtype=float)) @ self.rows.T
 
-    def to_file(self, points: np.ndarray) -> np.ndarray:
+    def to_file(self, points: ndarray) -> ndarray:
         """Points (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
         return self.vectors_to_file(points) + np.array(self.axis_point, dtype=float)
 
-    def vectors_to_file(self, vectors: np.ndarray) -> np.ndarray:
+    def vectors_to_file(self, vectors: ndarray) -> ndarray:
         """Displacements (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
         return vectors @ self.rows / self.metres_per_unit
 
@@ -82,7 +83,7 @@ class Orientation:
         """The blade's mesh in the file's unit and axes, its elements the right way out there."""
         return replace(mesh, points=self.to_file(mesh.points), blocks=self.mirrored(mesh.blocks))
 
-    def mirrored(self, blocks: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
+    def mirrored(self, blocks: Mapping[str, ndarray]) -> Mapping[str, ndarray]:
         """The elements the right way out on the other side, from the file to the blade's frame or back."""
         if np.linalg.det(self.rows) > 0.0:
             return blocks

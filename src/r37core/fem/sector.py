@@ -16,6 +16,8 @@ from typing import Self
 import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
+from numpy import ndarray
+from scipy.sparse import csr_array
 
 from r37core.mesh.blade_mesh import BladeMesh
 
@@ -31,16 +33,16 @@ def aliased(order: int, sectors: int) -> int:
 class SectorMatrix:
     """A matrix of the sector over all nodal diameters; see the module's formula."""
 
-    own: sp.csr_array
-    coupling: sp.csr_array
+    own: csr_array
+    coupling: csr_array
 
-    def at(self, phase: complex) -> sp.csr_array:
+    def at(self, phase: complex) -> csr_array:
         """The matrix at e^{i n a} = `phase`: Hermitian, and real at a real phase."""
         factor = phase if phase.imag else phase.real
-        return sp.csr_array(self.own + factor * self.coupling + np.conj(factor) * self.coupling.T)
+        return csr_array(self.own + factor * self.coupling + np.conj(factor) * self.coupling.T)
 
     @cached_property
-    def _inside(self) -> tuple[np.ndarray, np.ndarray, Solve, list[sp.csc_array], np.ndarray]:
+    def _inside(self) -> tuple[ndarray, ndarray, Solve, list[sp.csc_array], ndarray]:
         """Degrees of freedom of the low face, and all others, which no phase changes, with what solves for these.
 
         Their matrices with the low face, of `own` and of `coupling`, and what these two do to each other through the others.
@@ -65,13 +67,13 @@ class SectorMatrix:
         reaction = (np.conj(phases)[:, None] * through * phases).reshape(2, len(face), 2, len(face)).sum(axis=(0, 2))
         held = la.inv(self.at(phase)[face][:, face].toarray() - reaction)
 
-        def inside(load: np.ndarray) -> np.ndarray:
+        def inside(load: ndarray) -> ndarray:
             if not np.any(load.imag):
                 return solve(np.real(load))
             parts = [solve(np.stack([column.real, column.imag], axis=1)) for column in load.reshape(len(load), -1).T]
             return (np.array(parts) @ [1.0, 1.0j]).T.reshape(load.shape)
 
-        def solved(load: np.ndarray) -> np.ndarray:
+        def solved(load: ndarray) -> ndarray:
             moved = np.empty(load.shape, dtype=np.result_type(load, factor))
             free = inside(load[others])
             moved[face] = held @ (load[face] - towards.conj().T @ free)
@@ -88,8 +90,8 @@ class Sector:
     `pairs`, shape (pairs, 2): a node of the low face and that of the high face which it becomes by a turn of one sector.
     """
 
-    free_nodes: np.ndarray
-    pairs: np.ndarray
+    free_nodes: ndarray
+    pairs: ndarray
     sectors: int
 
     @classmethod
@@ -117,32 +119,32 @@ class Sector:
         return complex(np.exp(1j * nodal_diameter * self.angle))
 
     @cached_property
-    def _parts(self) -> tuple[sp.csr_array, sp.csr_array]:
+    def _parts(self) -> tuple[csr_array, csr_array]:
         """E and H, shape (unclamped dofs, unclamped dofs without the high face)."""
         free = self.free_nodes
         low, high = self.pairs[np.isin(self.pairs[:, 1], free)].T
         kept = np.setdiff1d(free, high)
         rows = np.searchsorted(free, kept)
         shape = len(free), len(kept)
-        same = sp.csr_array((np.ones(len(kept)), (rows, np.arange(len(kept)))), shape=shape)
+        same = csr_array((np.ones(len(kept)), (rows, np.arange(len(kept)))), shape=shape)
         places = np.searchsorted(free, high), np.searchsorted(kept, low)
-        turned = sp.csr_array((np.ones(len(high)), places), shape=shape)
+        turned = csr_array((np.ones(len(high)), places), shape=shape)
         cosine, sine = np.cos(self.angle), np.sin(self.angle)
         turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-        return sp.csr_array(sp.kron(same, sp.eye_array(3))), sp.csr_array(sp.kron(turned, turn))
+        return csr_array(sp.kron(same, sp.eye_array(3))), csr_array(sp.kron(turned, turn))
 
-    def matrix(self, free: sp.csr_array) -> SectorMatrix:
+    def matrix(self, free: csr_array) -> SectorMatrix:
         """The matrix for each nodal diameter, of one over the unclamped degrees of freedom."""
         same, turned = self._parts
         own = same.T @ free @ same + turned.T @ free @ turned
-        return SectorMatrix(sp.csr_array(own), sp.csr_array(same.T @ free @ turned))
+        return SectorMatrix(csr_array(own), csr_array(same.T @ free @ turned))
 
-    def expansion(self, phase: complex) -> sp.csr_array:
+    def expansion(self, phase: complex) -> csr_array:
         """E + e^{i n a} H, which gives all unclamped degrees of freedom of the sector."""
         same, turned = self._parts
-        return sp.csr_array(same + (phase if phase.imag else phase.real) * turned)
+        return csr_array(same + (phase if phase.imag else phase.real) * turned)
 
-    def displaced(self, stiffness: sp.csr_array, load: np.ndarray) -> np.ndarray:
+    def displaced(self, stiffness: csr_array, load: ndarray) -> ndarray:
         """Displacement (m) of the unclamped degrees of freedom, shape (dofs,), where all sectors have the same load (N)."""
         expansion = self.expansion(1.0 + 0.0j)
         return expansion @ factorise(self.matrix(stiffness).at(1.0 + 0.0j))(expansion.T @ load)

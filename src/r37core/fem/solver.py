@@ -7,8 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
+from numpy import ndarray
 
-Solve = Callable[[np.ndarray], np.ndarray]
+Solve = Callable[[ndarray], ndarray]
 """Displacements, shape (dofs,) or (dofs, loads), under forces of that shape."""
 
 _TOLERANCE = 1e-12
@@ -41,9 +42,7 @@ def _check_room(matrix: sp.sparray) -> None:
         raise MemoryError(f"{wanted}; raise the limit of this process (ulimit -v)") from None
 
 
-def lowest_modes(
-    stiffness: sp.sparray, mass: sp.sparray, count: int, solve: Solve | None = None
-) -> tuple[np.ndarray, np.ndarray]:
+def lowest_modes(stiffness: sp.sparray, mass: sp.sparray, count: int, solve: Solve | None = None) -> tuple[ndarray, ndarray]:
     """The `count` lowest eigenvalues (rad2/s2), ascending, and mass-normalised modes, shape (dofs, count).
 
     Shift-invert Lanczos about zero with a fixed start vector, so the result is reproducible; `solve` is the

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
+from numpy import ndarray
 
 from .assembly import Blocks, typed_blocks
 from .elements import ELEMENTS
@@ -13,7 +14,7 @@ COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
 """Order of the components of a stress: xx yy zz xy yz zx."""
 
 
-def stress_at(gradients: np.ndarray, displacement: np.ndarray, material: Material) -> np.ndarray:
+def stress_at(gradients: ndarray, displacement: ndarray, material: Material) -> ndarray:
     """Stress tensors (Pa), shape (elements, points, 3, 3).
 
     `gradients`: shape-function gradients, shape (elements, points, n, 3); `displacement` of each element's nodes (m),
@@ -37,7 +38,7 @@ def stress_numbers(blocks: Blocks, integration_points: bool) -> Blocks:
     return numbers
 
 
-def interpolated(blocks: Blocks, values: np.ndarray, integration_points: bool) -> np.ndarray:
+def interpolated(blocks: Blocks, values: ndarray, integration_points: bool) -> ndarray:
     """Values of the nodes, shape (nodes, n), at the points that stress_numbers numbers, by the shape functions."""
     if not integration_points:
         return values
@@ -49,26 +50,26 @@ def interpolated(blocks: Blocks, values: np.ndarray, integration_points: bool) -
 
 
 def recovered_stress(
-    blocks: Blocks, points: np.ndarray, displacement: np.ndarray, material: Material, integration_points: bool
-) -> np.ndarray:
+    blocks: Blocks, points: ndarray, displacement: ndarray, material: Material, integration_points: bool
+) -> ndarray:
     """Linear stress (Pa), shape (6, numbers, fields), components as in COMPONENTS, by stress_numbers; 0 at nodes of no element.
 
     `displacement` (m), shape (nodes, 3, fields), of nodes at `points` (m). Each element's stress is evaluated at its own
     nodes, where bending stress is largest, and averaged over the elements that share the node; or at its integration points.
     """
 
-    def stress(name: str, gradients: np.ndarray, field: int) -> np.ndarray:
+    def stress(name: str, gradients: ndarray, field: int) -> ndarray:
         return stress_at(gradients, displacement[blocks[name], :, field], material)
 
     return _averaged(blocks, points, displacement.shape[2], stress, integration_points)
 
 
 def second_order_stress(
-    blocks: Blocks, points: np.ndarray, first: np.ndarray, second: np.ndarray, material: Material, integration_points: bool
-) -> np.ndarray:
+    blocks: Blocks, points: ndarray, first: ndarray, second: ndarray, material: Material, integration_points: bool
+) -> ndarray:
     """Stress by the strain of second order of two displacements, field by field, as recovered_stress has it: see strain.py."""
 
-    def stress(name: str, gradients: np.ndarray, field: int) -> np.ndarray:
+    def stress(name: str, gradients: ndarray, field: int) -> ndarray:
         pair = (displacement_gradient(gradients, each[blocks[name], :, field]) for each in (first, second))
         return material.stress(second_order_strain(*pair))
 
@@ -76,12 +77,8 @@ def second_order_stress(
 
 
 def _averaged(
-    blocks: Blocks,
-    points: np.ndarray,
-    fields: int,
-    stress_of: Callable[[str, np.ndarray, int], np.ndarray],
-    integration_points: bool,
-) -> np.ndarray:
+    blocks: Blocks, points: ndarray, fields: int, stress_of: Callable[[str, ndarray, int], ndarray], integration_points: bool
+) -> ndarray:
     """Mean at each number of what its elements have there: tensors by the name of a type, its gradients and a field."""
     numbers = stress_numbers(blocks, integration_points)
     length = sum(part.size for part in numbers.values()) if integration_points else len(points)

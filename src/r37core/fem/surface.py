@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from numpy import ndarray
 from scipy.sparse.csgraph import connected_components
 
 from .elements import ELEMENTS
@@ -15,23 +16,23 @@ class Faces:
     """Faces of one shape: `nodes`, shape (faces, n), corners counter-clockwise seen from outside, then mid-nodes."""
 
     corners: int
-    nodes: np.ndarray
+    nodes: ndarray
 
     @property
     def quadratic(self) -> bool:
         """True where the edges have mid-nodes."""
         return self.nodes.shape[1] > self.corners
 
-    def edges(self) -> np.ndarray:
+    def edges(self) -> ndarray:
         """Edges in the turn of the face, shape (faces * corners, 3): start, mid-node (-1 without), end."""
         start = self.nodes[:, : self.corners]
         middle = self.nodes[:, self.corners :] if self.quadratic else np.full_like(start, -1)
         return np.stack([start, middle, np.roll(start, -1, axis=1)], axis=2).reshape(-1, 3)
 
 
-def outer_faces(blocks: Mapping[str, np.ndarray]) -> list[Faces]:
+def outer_faces(blocks: Mapping[str, ndarray]) -> list[Faces]:
     """Faces that belong to one element only, by shape (triangles and quadrangles, with or without mid-nodes)."""
-    shape_faces: dict[tuple[int, int], list[np.ndarray]] = {}
+    shape_faces: dict[tuple[int, int], list[ndarray]] = {}
     for name, elements in blocks.items():
         element = ELEMENTS[name]
         for face, corners in zip(element.faces, element.shape.faces, strict=True):
@@ -48,23 +49,23 @@ def outer_faces(blocks: Mapping[str, np.ndarray]) -> list[Faces]:
     return outer
 
 
-def mask_within(faces: list[Faces], members: np.ndarray) -> np.ndarray:
+def mask_within(faces: list[Faces], members: ndarray) -> ndarray:
     """Mask over the faces, shape (faces,), whose nodes are all `members`, a mask over the mesh's nodes."""
     return np.concatenate([np.empty(0, dtype=bool), *(members[part.nodes].all(axis=1) for part in faces)])
 
 
-def chosen(faces: list[Faces], mask: np.ndarray) -> list[Faces]:
+def chosen(faces: list[Faces], mask: ndarray) -> list[Faces]:
     """The faces of a mask over all of them, shape (faces,)."""
     parts = np.split(mask, np.cumsum([len(part.nodes) for part in faces])[:-1])
     return [Faces(part.corners, part.nodes[keep]) for part, keep in zip(faces, parts, strict=True) if keep.any()]
 
 
-def nodes_of(faces: list[Faces]) -> np.ndarray:
+def nodes_of(faces: list[Faces]) -> ndarray:
     """Numbers of the nodes of these faces, ascending."""
     return np.unique(np.concatenate([np.empty(0, dtype=np.int64), *(part.nodes.ravel() for part in faces)]))
 
 
-def loops(faces: list[Faces]) -> list[np.ndarray]:
+def loops(faces: list[Faces]) -> list[ndarray]:
     """Closed lines round a patch: node numbers in order, mid-nodes among them, counter-clockwise seen from outside.
 
     A patch with holes has several; the order of the loops is that of their first node.
@@ -85,7 +86,7 @@ def loops(faces: list[Faces]) -> list[np.ndarray]:
     return lines
 
 
-def area_vectors(faces: list[Faces], points: np.ndarray) -> np.ndarray:
+def area_vectors(faces: list[Faces], points: ndarray) -> ndarray:
     """Outward normal of each face times its area, shape (faces, 3), of its corners at `points`, shape (nodes, 3)."""
     outer = []
     for part in faces:
@@ -96,7 +97,7 @@ def area_vectors(faces: list[Faces], points: np.ndarray) -> np.ndarray:
     return np.concatenate(outer)
 
 
-def smooth_patches(faces: list[Faces], vectors: np.ndarray, crease: float) -> np.ndarray:
+def smooth_patches(faces: list[Faces], vectors: ndarray, crease: float) -> ndarray:
     """Patch of each face, shape (faces,), from `area_vectors`: normals of neighbours differ by less than `crease` (rad)."""
     edges = np.sort(np.concatenate([part.edges()[:, [0, 2]] for part in faces]), axis=1)
     owner = np.repeat(np.arange(len(vectors)), np.concatenate([np.full(len(part.nodes), part.corners) for part in faces]))

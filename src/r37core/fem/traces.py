@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy import ndarray
 
 from .elements import ELEMENTS
 
@@ -19,17 +20,17 @@ class Trace:
     point stands for, shape (edges, points).
     """
 
-    nodes: np.ndarray
-    values: np.ndarray
-    measures: np.ndarray
+    nodes: ndarray
+    values: ndarray
+    measures: ndarray
 
 
-def edge_traces(points: np.ndarray, blocks: Mapping[str, np.ndarray], members: np.ndarray) -> list[Trace]:
+def edge_traces(points: ndarray, blocks: Mapping[str, ndarray], members: ndarray) -> list[Trace]:
     """Edges all of whose nodes are `members`, a mask over the mesh's nodes; each edge once.
 
     `points`: coordinates (m), shape (nodes, 3); `blocks`: element type -> node numbers, shape (elements, nodes of the type).
     """
-    edges: dict[int, list[np.ndarray]] = {}
+    edges: dict[int, list[ndarray]] = {}
     for name, elements in blocks.items():
         element = ELEMENTS[name]
         for start, end in sorted(map(sorted, element.shape.edges)):
@@ -42,7 +43,7 @@ def edge_traces(points: np.ndarray, blocks: Mapping[str, np.ndarray], members: n
     return [chain_trace(points, each[np.sort(first)]) for each, first in zip(several, firsts, strict=True)]
 
 
-def chain_trace(points: np.ndarray, edges: np.ndarray) -> Trace:
+def chain_trace(points: ndarray, edges: ndarray) -> Trace:
     """Edges by their node numbers, shape (edges, 2 or 3): both ends, then the middle where there is one."""
     along, weights = np.polynomial.legendre.leggauss(_POINTS)
     if edges.shape[1] == 2:

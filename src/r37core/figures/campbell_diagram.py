@@ -5,9 +5,9 @@ from itertools import cycle
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from xarray import Dataset
 
 from r37core.base.plain import from_plain
 from r37core.contact.elastic_casing import ElasticCasing
@@ -17,7 +17,7 @@ from r37core.rom.naming import NAMED_MODES, mode_label
 from . import style
 
 
-def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] | None = None) -> Figure:
+def draw_campbell(campbell: Dataset, title: str, casings: Mapping[str, Any] | None = None) -> Figure:
     """One blade: frequencies over speed with engine orders and crossings, and the dynamic clearance of 1B and 1T.
 
     `casings`: elastic ones by scene, as plain values; their waves are seen from the rotor, paler where simulations have none.
@@ -53,7 +53,7 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
     return figure
 
 
-def _draw_casing(axes: Axes, campbell: xr.Dataset, casing: ElasticCasing, whose: str, colour: str) -> None:
+def _draw_casing(axes: Axes, campbell: Dataset, casing: ElasticCasing, whose: str, colour: str) -> None:
     """Waves of an elastic casing, and where named modes of the blade meet them."""
     speeds, highest = campbell["speed"].values, axes.get_ylim()[1]
     dashes = {"forward": (4.0, 2.0), "backward": (1.0, 1.5)}

@@ -5,9 +5,9 @@ from textwrap import fill
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from xarray import Dataset
 
 from r37core.results.columns import LEFT_BY, LENGTHS, names
 from r37core.results.measures import leading_edge, ran
@@ -23,7 +23,7 @@ _MOST_RANKED = 60
 _DANGEROUS, _UNKNOWN, _SUSTAINED = names(LENGTHS)
 
 
-def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
+def shared_order(campbell: Dataset, low: float, high: float) -> int | None:
     """The engine order whose crossings with 1B most blades have between `low` and `high` (rad/s), of several the lowest.
 
     None where no blade has any.
@@ -34,11 +34,11 @@ def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
 
 
 def draw_comparison(
-    campbell: xr.Dataset,
-    rms: xr.Dataset,
-    stress: xr.Dataset | None = None,
+    campbell: Dataset,
+    rms: Dataset,
+    stress: Dataset | None = None,
     title: str = "",
-    further_runs: xr.Dataset | None = None,
+    further_runs: Dataset | None = None,
     *,
     below: float,
     above: float,

@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
+from xarray import Dataset
 
 from r37core.results.danger import ranges_of
 from r37core.results.datasets import with_further_runs
@@ -49,7 +50,7 @@ ROW_HEIGHT = 0.2
 
 def draw_danger_rows(
     axes: Axes,
-    runs: Mapping[str, xr.Dataset],
+    runs: Mapping[str, Dataset],
     colours: Sequence[Any],
     place: Callable[[str, float], float] = lambda _, speed: speed,
 ) -> None:
@@ -76,9 +77,7 @@ def draw_danger_rows(
     axes.grid(visible=False, axis="y")
 
 
-def shown_runs(
-    rms: xr.Dataset, stress: xr.Dataset | None, further_runs: xr.Dataset | None
-) -> tuple[xr.Dataset, xr.Dataset | None, xr.Dataset]:
+def shown_runs(rms: Dataset, stress: Dataset | None, further_runs: Dataset | None) -> tuple[Dataset, Dataset | None, Dataset]:
     """The two datasets with the further runs of a verdict in place of the sweep's, and the runs with motion and stress."""
     rms = with_further_runs("rms", rms, further_runs)
     if stress is None:
@@ -87,7 +86,7 @@ def shown_runs(
     return rms, stress, xr.merge([rms, stress], join="left", compat="override")
 
 
-def kinds_of(response: xr.Dataset) -> dict[str, list[SpeedRange]]:
+def kinds_of(response: Dataset) -> dict[str, list[SpeedRange]]:
     """Ranges of dangerous, unknown and sustained speeds; without stress unknown are all at which the model is left."""
     if "max_von_mises_inside" in response and response["max_von_mises_inside"].notnull().any():
         return dict(zip(KINDS, ranges_of(response).values(), strict=True))
@@ -95,7 +94,7 @@ def kinds_of(response: xr.Dataset) -> dict[str, list[SpeedRange]]:
     return dict(zip(KINDS, ([], ranges_above(response["speed"].values, left, 0.5), []), strict=True))
 
 
-def causes_text(response: xr.Dataset) -> str:
+def causes_text(response: Dataset) -> str:
     """Limits by which runs leave the model before they pass yield, those of the most runs first: heat, force."""
     danger = response.get("yield_danger", response["exit_cause"] > 0)
     causes = response["exit_cause"].values[danger.values == Danger.UNKNOWN]

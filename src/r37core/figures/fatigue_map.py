@@ -4,10 +4,11 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-import xarray as xr
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from numpy import ndarray
+from xarray import Dataset
 
 from r37core.results.measures import has_strengths
 from r37core.rom.rom_file import read_reduced_model
@@ -21,7 +22,7 @@ _PIXELS, _HEIGHT = (600, 800), 3.2
 _DIRECTIONS = ((0.35, -1.0, -0.25), (0.35, 1.0, 0.25))
 
 
-def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str, further_runs: xr.Dataset | None = None) -> Figure:
+def draw_fatigue_map(mesh: Path, rom: Path, response: Dataset, title: str, further_runs: Dataset | None = None) -> Figure:
     """Draw as draw_fatigue does, in the region that decides, of the reduced model in the file `rom`.
 
     `further_runs`: of a verdict, of whose nodes nothing is known; the title says where one has a larger share.
@@ -36,7 +37,7 @@ def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str, fu
     return figure
 
 
-def draw_fatigue(mesh: Path | str, points: np.ndarray, response: xr.Dataset, title: str) -> Figure:
+def draw_fatigue(mesh: Path | str, points: ndarray, response: Dataset, title: str) -> Figure:
     """Draw the largest share of the Goodman line of each point, at the speed where one is largest, on both sides of the blade.
 
     `mesh`: a .vtu; `points` (m), shape (stress points, 3): where stress is; `response`: of the blade in a
@@ -72,8 +73,8 @@ def draw_fatigue(mesh: Path | str, points: np.ndarray, response: xr.Dataset, tit
 
 
 def _rendered(
-    grid: Any, points: np.ndarray, share: np.ndarray, seen_from: tuple[float, float, float], close_up: np.ndarray | None
-) -> np.ndarray:
+    grid: Any, points: ndarray, share: ndarray, seen_from: tuple[float, float, float], close_up: ndarray | None
+) -> ndarray:
     """The grey blade with a dot at each of the `points`, red at the worst one; `close_up`: those to look at, None: whole."""
     plotter = new_plotter(1, _PIXELS)
     size = 5 if close_up is None else 10

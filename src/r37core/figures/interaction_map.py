@@ -7,7 +7,6 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
@@ -15,6 +14,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
+from pandas import DataFrame
+from xarray import Dataset
 
 from r37core.results.closing import interaction_title
 from r37core.results.events import Danger
@@ -61,11 +62,7 @@ _OTHERS = "0.45"
 
 
 def draw_interactions(
-    campbell: xr.Dataset,
-    rms: xr.Dataset,
-    interactions: pd.DataFrame,
-    stress: xr.Dataset | None = None,
-    further_runs: xr.Dataset | None = None,
+    campbell: Dataset, rms: Dataset, interactions: DataFrame, stress: Dataset | None = None, further_runs: Dataset | None = None
 ) -> Figure:
     """Draw a panel for each scene, at most six: those with the longest dangerous ranges; below it danger_rows of the blades.
 
@@ -147,7 +144,7 @@ def draw_interactions(
     return figure
 
 
-def _draw_modes(axes: Axes, campbell: xr.Dataset, names: Iterable[str]) -> None:
+def _draw_modes(axes: Axes, campbell: Dataset, names: Iterable[str]) -> None:
     """Engine orders, and modes and combinations by name: a line, or a band from the lowest to the highest blade."""
     (left, right), highest = axes.get_xlim(), axes.get_ylim()[1]
     orders = campbell["engine_order"].values
@@ -173,7 +170,7 @@ def _draw_modes(axes: Axes, campbell: xr.Dataset, names: Iterable[str]) -> None:
             )
 
 
-def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None:
+def _draw_marks(axes: Axes, rows: DataFrame, colours: dict[str, str]) -> None:
     """Marks, the largest first, on lines along the speeds above yield; crosses for what diverged."""
     if rows.empty:
         style.say(axes, "no interaction was found")
@@ -197,17 +194,17 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
         axes.plot(*_places(rows[diverged]), "x", color="red", zorder=2.6, label="diverged", clip_on=False)
 
 
-def _unknown_share(runs: xr.Dataset) -> str:
+def _unknown_share(runs: Dataset) -> str:
     """How many runs of all blades leave the model first; nothing where none does."""
     left = np.count_nonzero(runs["exit_revolution"].notnull())
     return f" ({left} of {np.count_nonzero(runs['status'] != RunStatus.NOT_RUN)} runs leave the model)" if left else ""
 
 
-def _places(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
+def _places(rows: DataFrame) -> tuple[pd.Series, pd.Series]:
     return rows["peak_speed_rad_s"], rows["frequency"]
 
 
-def _label(axes: Axes, rows: pd.DataFrame, point: float, *, named: bool) -> None:
+def _label(axes: Axes, rows: DataFrame, point: float, *, named: bool) -> None:
     """Label the largest circles, as far as there is room: neither on each other nor on other circles. `point`: in pixels."""
     radii = 0.5 * np.sqrt(rows["area"].values)
     middles = axes.transData.transform(np.column_stack(_places(rows)))

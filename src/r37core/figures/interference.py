@@ -1,9 +1,9 @@
 """Interference diagram (ZZENF) of a blade on a disc: frequencies over nodal diameter."""
 
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
+from xarray import Dataset
 
 from r37core.fem.sector import aliased
 from r37core.rom.naming import NAMED_MODES, mode_label
@@ -11,7 +11,7 @@ from r37core.rom.naming import NAMED_MODES, mode_label
 from . import style
 
 
-def draw_interference(campbell: xr.Dataset, title: str) -> Figure:
+def draw_interference(campbell: Dataset, title: str) -> Figure:
     """Frequencies of all nodal diameters at rest and at the highest speed, and the engine orders that excite them there.
 
     Source: M. P. Singh et al., SAFE diagram, Proc. 17th Turbomachinery Symposium (1988) 93-101.

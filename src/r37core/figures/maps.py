@@ -4,11 +4,12 @@ from typing import Any, cast
 
 import matplotlib.pyplot as plt
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.ticker import MaxNLocator
+from numpy import ndarray
+from xarray import DataArray, Dataset
 
 from r37core.rom.naming import NAMED_MODES
 
@@ -18,7 +19,7 @@ _MOST_BINS = 400
 DIRECTIONS = {"amplitude": "normal", "amplitude_tangential": "tangential"}
 
 
-def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
+def draw_spectral_map(maps: Dataset, campbell: Dataset, title: str) -> Figure:
     """Amplitudes, normal and tangential, over speed and engine order, with the named modes' frequencies as lines.
 
     In decibels below the largest amplitude at the same speed, so that what is not resonant is seen, too; that largest amplitude
@@ -38,7 +39,7 @@ def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Fig
     return figure
 
 
-def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset) -> AxesImage | None:
+def _draw_spectrum(strip: Axes, axes: Axes, amplitude: DataArray, campbell: Dataset) -> AxesImage | None:
     if not amplitude.sizes["speed"]:
         style.say(axes, style.ALL_DIVERGED)
         strip.set_axis_off()
@@ -65,7 +66,7 @@ def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: x
     return picture
 
 
-def _draw_decibels(axes: Axes, across: np.ndarray, upward: np.ndarray, shares: np.ndarray) -> AxesImage:
+def _draw_decibels(axes: Axes, across: ndarray, upward: ndarray, shares: ndarray) -> AxesImage:
     """Cells as of draw_cells over whole numbers upward, coloured by the decibels of `shares` of the largest value."""
     decibels = 20.0 * np.log10(np.maximum(shares, 1e-30))
     axes.yaxis.set_major_locator(MaxNLocator(integer=True))
@@ -79,7 +80,7 @@ def _write_on_dark(axes: Axes, text: str, share: float, height: float, **where: 
     axes.text(share, height, text, color="white", fontsize=7, transform=axes.get_yaxis_transform(), bbox=shade, **where)
 
 
-def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
+def draw_wear_map(maps: Dataset, campbell: Dataset, title: str) -> Figure:
     """Wear over speed and angle of one blade and scene, with the crossings of 1B, and speeds at which it is worn through."""
     wear = maps["wear"].dropna("speed", how="all")
     figure, axes = plt.subplots(figsize=(style.COLUMN * 1.4, 3.4))
@@ -102,7 +103,7 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     return figure
 
 
-def draw_cells(axes: Axes, across: np.ndarray, upward: np.ndarray, values: np.ndarray, **look: Any) -> AxesImage:
+def draw_cells(axes: Axes, across: ndarray, upward: ndarray, values: ndarray, **look: Any) -> AxesImage:
     """Cells about ascending middles `across` and `upward`, coloured by `values`, shape (upward, across); NaN stays empty.
 
     `look`: what Axes.pcolorfast takes for colours.
@@ -111,7 +112,7 @@ def draw_cells(axes: Axes, across: np.ndarray, upward: np.ndarray, values: np.nd
     return cast(AxesImage, axes.pcolorfast(_edges(across), _edges(upward), values, **look))
 
 
-def _edges(middles: np.ndarray) -> np.ndarray:
+def _edges(middles: ndarray) -> ndarray:
     """Edges of cells about ascending middles, half-way between them; a single one has a cell of length 1."""
     middles = np.asarray(middles, dtype=float)
     if len(middles) == 1:
@@ -120,7 +121,7 @@ def _edges(middles: np.ndarray) -> np.ndarray:
     return np.concatenate([[2.0 * middles[0] - between[0]], between, [2.0 * middles[-1] - between[-1]]])
 
 
-def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
+def draw_casing_map(maps: Dataset, title: str) -> Figure:
     """Level of forward and backward waves over speed and nodal diameter, below it the casing's energy.
 
     In decibels below the largest level of the whole map.

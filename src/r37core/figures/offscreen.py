@@ -11,6 +11,7 @@ if sys.platform == "linux":
 
 import numpy as np
 import pyvista
+from numpy import ndarray
 
 from r37core.base.io import atomic_write, readable
 
@@ -46,7 +47,7 @@ def look(
     plotter: pyvista.Plotter,
     seen_from: tuple[float, float, float] = (0.25, -1.0, 0.9),
     zoom: float = 1.3,
-    close_up: np.ndarray | None = None,
+    close_up: ndarray | None = None,
 ) -> None:
     """Show all of the current panel, or the points of a `close_up`, shape (points, 3), from a direction; the radius is up."""
     plotter.camera_position = [seen_from, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
@@ -55,14 +56,14 @@ def look(
     plotter.camera.zoom(zoom)
 
 
-def rendered(plotter: pyvista.Plotter) -> np.ndarray:
+def rendered(plotter: pyvista.Plotter) -> ndarray:
     """Picture that was drawn, as pixels of shape (height, width, 3), and the end of the plotter."""
     pixels = np.asarray(plotter.screenshot(return_img=True))
     plotter.close()
     return pixels
 
 
-def without_margins(pixels: np.ndarray) -> np.ndarray:
+def without_margins(pixels: ndarray) -> ndarray:
     """The part of a picture, shape (height, width, 3), that is not white."""
     drawn = np.argwhere((pixels < 255).any(axis=2))
     (top, left), (bottom, right) = drawn.min(axis=0), drawn.max(axis=0) + 1

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from xarray import Dataset
 
 from r37core.results.measures import ran
 from r37core.results.other_motions import half_step, swept
@@ -23,11 +23,11 @@ _MARKERS = (
 
 def draw_response(
     title: str,
-    campbell: xr.Dataset | None,
-    rms: xr.Dataset,
-    stress: xr.Dataset | None = None,
-    motions: xr.Dataset | None = None,
-    further_runs: xr.Dataset | None = None,
+    campbell: Dataset | None,
+    rms: Dataset,
+    stress: Dataset | None = None,
+    motions: Dataset | None = None,
+    further_runs: Dataset | None = None,
 ) -> Figure:
     """One blade: normal and tangential rms of the leading edge in every scene, bands of the stress with the yield line, rows.
 
@@ -73,7 +73,7 @@ def draw_response(
     return figure
 
 
-def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
+def _draw_scenes(axes: Axes, rms: Dataset, direction: str) -> None:
     for scene in rms["scene"].values:
         runs = rms.sel(scene=scene)
         response = runs[f"rms_{direction}"].sel(tip_point="leading_edge").dropna("speed")
@@ -88,7 +88,7 @@ def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
         style.mark_diverged(axes, runs["speed"].values[runs["status"].values == RunStatus.DIVERGED])
 
 
-def _draw_largest(axes: Axes, motions: xr.Dataset, name: str, factor: float) -> None:
+def _draw_largest(axes: Axes, motions: Dataset, name: str, factor: float) -> None:
     """The largest of all motions of each scene where they differ, in the colour of the scene, on shaded speeds."""
     for number, scene in enumerate(motions["scene"].values):
         pair = swept(motions.sel(scene=scene))
@@ -98,7 +98,7 @@ def _draw_largest(axes: Axes, motions: xr.Dataset, name: str, factor: float) -> 
         shade(axes, pair, f"C{number}", f"{style.scene_words(scene)}: motions differ")
 
 
-def shade(axes: Axes, pair: xr.Dataset, colour: Any = "0.5", name: str = "motions differ") -> None:
+def shade(axes: Axes, pair: Dataset, colour: Any = "0.5", name: str = "motions differ") -> None:
     """Shade the speeds at which the motions of one blade and scene differ (results/other_motions.py)."""
     speeds, differ = pair["speed"].values, pair["differ"].values > 0.0
     half = half_step(speeds)

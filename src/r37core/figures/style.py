@@ -14,13 +14,13 @@ if matplotlib.get_backend(auto_select=False) is None:
 
 import matplotlib.pyplot as plt
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
+from xarray import Dataset
 
 from r37core.base.io import atomic_write
 from r37core.base.units import RPM
@@ -101,18 +101,18 @@ def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
     return {str(blade): look for blade, look in zip(blades, looks, strict=False)}
 
 
-def mode_colour(campbell: xr.Dataset, mode: str) -> str:
+def mode_colour(campbell: Dataset, mode: str) -> str:
     """Colour of a mode, by its place in the Campbell diagram: the same in every figure and in the explorer."""
     return COLOURS[list(campbell["mode"].values).index(mode) % len(COLOURS)]
 
 
-def is_linear(data: xr.Dataset) -> bool:
+def is_linear(data: Dataset) -> bool:
     """True for a dataset of runs of linear kinematics alone, by its attributes (results.datasets.write_sweep_dataset)."""
     kinds = [part.partition(":")[0] for part in str(data.attrs.get("contact")).split("; ")]
     return all(QUADRATIC not in f"{kind} {data.attrs.get('kinematics')}" for kind in kinds)
 
 
-def stress_band(axes: Axes, places: Any, stress: xr.Dataset, label: str, **look: Any) -> None:
+def stress_band(axes: Axes, places: Any, stress: Dataset, label: str, **look: Any) -> None:
     """Largest stress (GPa) before a run leaves the model, over `places`, and a band from it up to that of all revolutions."""
     inside, largest = (1e-9 * stress[f"max_von_mises_{name}"] for name in ("inside", "ever"))
     (line,) = axes.plot(places, inside, marker=".", markersize=3, label=label, **look)
@@ -121,7 +121,7 @@ def stress_band(axes: Axes, places: Any, stress: xr.Dataset, label: str, **look:
     axes.plot(places, largest, marker=".", markersize=2, **look | {"color": line.get_color(), "linewidth": 0.6})
 
 
-def stress_label(stress: xr.Dataset) -> str:
+def stress_label(stress: Dataset) -> str:
     """Label of an axis of stress_band, with the region of the stress where all runs have the same."""
     regions = set(map(str, stress["stress_region"].values.flat)) - {""} if "stress_region" in stress else set()
     return "\n".join(
@@ -182,7 +182,7 @@ def mark_above(axes: Axes, places: np.ndarray, marker: str, **look: Any) -> None
     axes.plot(places, np.full(len(places), 0.97), marker, transform=axes.get_xaxis_transform(), **look)
 
 
-def crossings_seen(axes: Axes, campbell: xr.Dataset | None) -> list[tuple[Any, float]]:
+def crossings_seen(axes: Axes, campbell: Dataset | None) -> list[tuple[Any, float]]:
     """Engine orders and speeds (rad/s) of the crossings of 1B within a panel over speed; none without a Campbell diagram."""
     low, high = axes.get_xlim()
     crossings = () if campbell is None else campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items()

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy import ndarray
 
 TIP_LINES = {"pressure_edge": "tip_pressure_edge", "camber": "tip_camber_line", "suction_edge": "tip_suction_edge"}
 """Name of a line of the tip -> its node set."""
@@ -23,28 +24,28 @@ class BladeMesh:
     of its low face, and the node of its high face that it becomes by a turn of one sector about z.
     """
 
-    points: np.ndarray
-    blocks: Mapping[str, np.ndarray]
-    parameters: np.ndarray
-    normals: np.ndarray
-    node_sets: Mapping[str, np.ndarray]
-    cyclic: np.ndarray | None = None
+    points: ndarray
+    blocks: Mapping[str, ndarray]
+    parameters: ndarray
+    normals: ndarray
+    node_sets: Mapping[str, ndarray]
+    cyclic: ndarray | None = None
 
-    def node_set(self, name: str) -> np.ndarray:
+    def node_set(self, name: str) -> ndarray:
         """Node numbers of a set, lines of the tip from leading to trailing edge; KeyError for a name not in NODE_SETS."""
         return self.node_sets[name]
 
-    def mask(self, name: str) -> np.ndarray:
+    def mask(self, name: str) -> ndarray:
         """Mask over the nodes, shape (nodes,), of those of a set; KeyError as of node_set."""
         return np.isin(np.arange(len(self.points)), self.node_set(name))
 
     @property
-    def free_nodes(self) -> np.ndarray:
+    def free_nodes(self) -> ndarray:
         """Numbers of the nodes that are not clamped at the root."""
         return np.setdiff1d(np.arange(len(self.points)), self.node_set("root"))
 
 
-def parametric_node_sets(parameters: np.ndarray) -> dict[str, np.ndarray]:
+def parametric_node_sets(parameters: ndarray) -> dict[str, ndarray]:
     """Node sets of a mesh whose `parameters`, shape (nodes, 3), are exact on the faces of the blade."""
     chord, span, thickness = parameters.T
     tip_mask = span == 1.0
@@ -60,6 +61,6 @@ def parametric_node_sets(parameters: np.ndarray) -> dict[str, np.ndarray]:
     return {name: along_chord(np.flatnonzero(mask), name, chord) for name, mask in members.items()}
 
 
-def along_chord(nodes: np.ndarray, name: str, chord: np.ndarray) -> np.ndarray:
+def along_chord(nodes: ndarray, name: str, chord: ndarray) -> ndarray:
     """The nodes of the set `name`, from leading to trailing edge (by `chord` of all nodes) if it is a line of the tip."""
     return nodes[np.argsort(chord[nodes], kind="stable")] if name in TIP_LINES.values() else nodes

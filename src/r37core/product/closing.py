@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from pandas import DataFrame
 
 from r37core.base.io import InputFileError
 from r37core.base.rounding import rounded_to
@@ -62,7 +63,7 @@ def closing_lines(
     return [*lines, _took(ended - began)] if lines else []
 
 
-def _table(file: Path, began: float) -> pd.DataFrame | None:
+def _table(file: Path, began: float) -> DataFrame | None:
     """A table with all _COLUMNS, NaN where it has none; None where there is none that is as new as the run."""
     if not file.exists() or file.stat().st_mtime < began:
         return None
@@ -70,7 +71,7 @@ def _table(file: Path, began: float) -> pd.DataFrame | None:
     return table.reindex(columns=[*dict.fromkeys([*table, *_COLUMNS])])
 
 
-def _found(table: pd.DataFrame) -> str:
+def _found(table: DataFrame) -> str:
     if table.empty:
         return "found no interaction"
     known = table[table[_LENGTH].notna()]
@@ -121,7 +122,7 @@ def _ranked(file: Path, began: float) -> Iterator[str]:
         yield f"speeds lie up to {gap:g} rad/s apart: a narrower interaction between them may be missed"
 
 
-def _extremes(rows: pd.DataFrame, file: Path) -> Iterator[str]:
+def _extremes(rows: DataFrame, file: Path) -> Iterator[str]:
     """Blades of each scene that may be the best and the worst, by `extremes`."""
     # of many scenes, as of a family, their tables say it
     for scene, table in rows.groupby("scene", sort=False) if rows["scene"].nunique() <= MOST_SCENES else ():
@@ -134,7 +135,7 @@ def _extremes(rows: pd.DataFrame, file: Path) -> Iterator[str]:
             yield f"{scene}: {_named(table)} cannot be ranked (dangerous over {_lengths(table)}); {file}"
 
 
-def _lengths(rows: pd.DataFrame) -> str:
+def _lengths(rows: DataFrame) -> str:
     """Length of the dangerous speeds of blades that share a rank, or the range of their brackets.
 
     Of one its widest range where it has several, and the sustained length by other motions where it is longer.
@@ -150,7 +151,7 @@ def _lengths(rows: pd.DataFrame) -> str:
     return f"{text} from rest, {worst:.0f} sustained by the worst motion" if worst > high else text
 
 
-def _named(rows: pd.DataFrame, word: str = "and") -> str:
+def _named(rows: DataFrame, word: str = "and") -> str:
     """Names of blades, of many the first ones; the `word` stands before the last."""
     *names, last = rows["blade"]
     if len(names) >= MOST_NAMED:
@@ -158,7 +159,7 @@ def _named(rows: pd.DataFrame, word: str = "and") -> str:
     return f"{', '.join(names)} {word} {last}" if names else last
 
 
-def _over_scenes(rows: pd.DataFrame) -> list[str]:
+def _over_scenes(rows: DataFrame) -> list[str]:
     """Blades ranked over all scenes, each with its longest length; nothing for one scene, and for one blade."""
     known = rows[rows["rank_over_scenes"].notna()]
     known = known.assign(end=known[_LENGTH] + known[_UNKNOWN])

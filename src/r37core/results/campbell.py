@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 import scipy
 import xarray as xr
+from numpy import ndarray
 
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.contact.casing import approach
@@ -36,20 +37,20 @@ class Campbell:
     `continuity`: smallest MAC between neighbouring speeds of each mode, shape (modes,).
     """
 
-    speeds: np.ndarray
+    speeds: ndarray
     mode_names: tuple[str, ...]
-    frequencies: np.ndarray
-    shapes: np.ndarray
-    continuity: np.ndarray
+    frequencies: ndarray
+    shapes: ndarray
+    continuity: ndarray
 
-    def crossing_speeds(self, engine_orders: np.ndarray) -> np.ndarray:
+    def crossing_speeds(self, engine_orders: ndarray) -> ndarray:
         """Speeds (rad/s), shape (modes, orders), of the crossings of each mode: see crossing_speed."""
         return np.array(
             [[crossing_speed(self.speeds, frequency, order) for order in engine_orders] for frequency in self.frequencies]
         )
 
 
-def crossing_speed(speeds: np.ndarray, frequency: np.ndarray, order: int) -> float:
+def crossing_speed(speeds: ndarray, frequency: ndarray, order: int) -> float:
     """Speed (rad/s) where a frequency (Hz) at ascending `speeds` is an engine order of the speed.
 
     The first such speed within the diagram, NaN where there is none. The squared frequency, almost linear in the squared
@@ -65,14 +66,14 @@ def crossing_speed(speeds: np.ndarray, frequency: np.ndarray, order: int) -> flo
     return float(np.sqrt(scipy.optimize.brentq(lambda s: float(spline(s)) - order**2 * s, *bracket, xtol=1e-9)))
 
 
-def modal_assurance(first: np.ndarray, second: np.ndarray, mass: np.ndarray) -> np.ndarray:
+def modal_assurance(first: ndarray, second: ndarray, mass: ndarray) -> ndarray:
     """Mass-weighted modal assurance criterion between two sets of shapes (columns), shape (first, second)."""
     product = (first.T @ mass @ second) ** 2
     norms = [np.einsum("ik,ij,jk->k", shapes, mass, shapes) for shapes in (first, second)]
     return product / norms[0][:, None] / norms[1]
 
 
-def campbell_diagram(model: ReducedModel, speeds: np.ndarray, modes: int) -> Campbell:
+def campbell_diagram(model: ReducedModel, speeds: ndarray, modes: int) -> Campbell:
     """Follow the `modes` lowest modes at the first speed over ascending `speeds` (rad/s)."""
     speeds = np.asarray(speeds, dtype=float)
     frequency, shape = model.modes(speeds[0], modes + _SPARE_MODES)
@@ -96,7 +97,7 @@ def campbell_diagram(model: ReducedModel, speeds: np.ndarray, modes: int) -> Cam
     )
 
 
-def name_modes(model: ReducedModel, shapes: np.ndarray, count: int) -> tuple[tuple[str, ...], np.ndarray]:
+def name_modes(model: ReducedModel, shapes: ndarray, count: int) -> tuple[tuple[str, ...], ndarray]:
     """Names and order of `count` modes among `shapes` (columns, ascending frequency): 1B, 1T, 2B, then 4, 5, ...
 
     The three names go to the modes with the largest MAC against the ideal shapes; the others follow by frequency.
@@ -106,9 +107,7 @@ def name_modes(model: ReducedModel, shapes: np.ndarray, count: int) -> tuple[tup
     return named_order(model, assurance, count)
 
 
-def dynamic_clearance(
-    model: ReducedModel, shapes: np.ndarray, tip_line: str, tangential_displacement: np.ndarray
-) -> np.ndarray:
+def dynamic_clearance(model: ReducedModel, shapes: ndarray, tip_line: str, tangential_displacement: ndarray) -> ndarray:
     """Change of the leading-edge clearance (m), shape (modes, displacements), as the blade swings along free modes.
 
     `shapes`: reduced shapes (columns); `tangential_displacement` (m), positive towards growing theta, of the tip's
@@ -150,7 +149,7 @@ AXES = {
 def campbell_dataset(
     model: ReducedModel,
     *,
-    speeds: np.ndarray,
+    speeds: ndarray,
     modes: int,
     highest_engine_order: int,
     largest_tangential_displacement: float,
@@ -192,12 +191,12 @@ def campbell_dataset(
     )
 
 
-def _disc_diagram(disc: Families, speeds: np.ndarray) -> Campbell:
+def _disc_diagram(disc: Families, speeds: ndarray) -> Campbell:
     """The diagram of the highest nodal diameter, where the disc moves least."""
     return Campbell(speeds, disc.names, disc.frequencies[:, -1], disc.shapes.T[:, None], disc.continuity)
 
 
-def _crossings(model: ReducedModel, disc: Families, speeds: np.ndarray, orders: np.ndarray) -> np.ndarray:
+def _crossings(model: ReducedModel, disc: Families, speeds: ndarray, orders: ndarray) -> ndarray:
     """Speeds (rad/s), shape (modes, orders), at which each mode of the nodal diameter that an order excites crosses it."""
     assert model.disc is not None
     excited = [aliased(int(order), int(model.disc.sectors)) for order in orders]

@@ -8,9 +8,9 @@ Wave Speed Coincidence, PhD thesis, Imperial College London, 1997; Legrand et al
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-import pandas as pd
 import scipy
-import xarray as xr
+from pandas import DataFrame
+from xarray import DataArray, Dataset
 
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import RingMode
@@ -32,13 +32,13 @@ def waves_of(mode: RingMode) -> tuple[str, ...]:
     return tuple(WAVES) if mode.nodal_diameter else ("forward",)
 
 
-def modes_met(casing: ElasticCasing, campbell: xr.Dataset) -> tuple[RingMode, ...]:
+def modes_met(casing: ElasticCasing, campbell: Dataset) -> tuple[RingMode, ...]:
     """Modes of a casing that named modes of the blades can meet, in simulations or not: see ElasticCasing.modes_met."""
     highest = 2.0 * np.pi * float(campbell["frequency"].sel(mode=list(NAMED_MODES)).max())
     return casing.modes_met(float(campbell["speed"].max()), highest)
 
 
-def coincidence_table(campbell: xr.Dataset, casings: Mapping[str, ElasticCasing]) -> pd.DataFrame:
+def coincidence_table(campbell: Dataset, casings: Mapping[str, ElasticCasing]) -> DataFrame:
     """All coincidences of the named modes of every blade with the casing of each scene: one row each, by ascending speed.
 
     `simulated`: yes, or no where the scene's simulations leave the mode of the casing out, and so do not show it.
@@ -52,10 +52,10 @@ def coincidence_table(campbell: xr.Dataset, casings: Mapping[str, ElasticCasing]
         for wave in waves_of(mode)
         for speed, frequency in coincidences(campbell["frequency"].sel(blade=blade, mode=name), mode, wave)
     ]
-    return pd.DataFrame(rows, columns=COLUMNS).sort_values(["scene", "blade", "speed_rad_s"], kind="stable")
+    return DataFrame(rows, columns=COLUMNS).sort_values(["scene", "blade", "speed_rad_s"], kind="stable")
 
 
-def coincidences(frequency: xr.DataArray, mode: RingMode, wave: str) -> Iterator[tuple[float, float]]:
+def coincidences(frequency: DataArray, mode: RingMode, wave: str) -> Iterator[tuple[float, float]]:
     """Speeds (rad/s) and frequencies (Hz) at which a blade's `frequency` (Hz) over speed is that of a wave.
 
     The blade's is interpolated by a cubic spline, the wave's is a straight line: the roots are exact of both.

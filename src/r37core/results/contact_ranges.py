@@ -5,7 +5,8 @@ from operator import itemgetter
 from typing import Any
 
 import numpy as np
-import xarray as xr
+from numpy import ndarray
+from xarray import Dataset
 
 from r37core.base.peaks import half_width
 
@@ -23,7 +24,7 @@ _OF_NORMAL = 1.4826 / np.sqrt(1.5)
 
 
 def rows_above_yield(
-    response: xr.Dataset, peaks: Sequence[Interaction], name: Callable[[xr.Dataset], Mapping[str, Any]]
+    response: Dataset, peaks: Sequence[Interaction], name: Callable[[Dataset], Mapping[str, Any]]
 ) -> list[Interaction]:
     """Rows by ascending speed: every range that may be above yield, and of the `peaks` those that lie in none of them.
 
@@ -42,7 +43,7 @@ def rows_above_yield(
     return sorted(rows, key=itemgetter("peak_speed_rad_s"))
 
 
-def ranges_without_peak(response: xr.Dataset, reaches: Sequence[SpeedRange]) -> list[Interaction]:
+def ranges_without_peak(response: Dataset, reaches: Sequence[SpeedRange]) -> list[Interaction]:
     """Rows of ranges above yield, as far as they lie outside of the `reaches` of all interactions of a lined scene."""
     if "max_von_mises_inside" not in response:
         return []
@@ -56,7 +57,7 @@ def ranges_without_peak(response: xr.Dataset, reaches: Sequence[SpeedRange]) -> 
     ]
 
 
-def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
+def _ranges(response: Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
     if exceedance is None:
         return []
     own = ranges_above(exceedance.speeds, exceedance.shares, MOST_REVOLUTIONS)
@@ -65,10 +66,10 @@ def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRa
 
 
 def _row(
-    response: xr.Dataset,
+    response: Dataset,
     exceedance: Exceedance | None,
     within: SpeedRange,
-    name: Callable[[xr.Dataset], Mapping[str, Any]] = lambda _: {},
+    name: Callable[[Dataset], Mapping[str, Any]] = lambda _: {},
     *,
     peak_alone: bool = False,
     note: str = NO_NAME,
@@ -99,7 +100,7 @@ def _row(
     return interaction_row(response, index, response.isel(speed=inside), columns, "; ".join(notes))
 
 
-def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:
+def _scatter(speeds: ndarray, level: ndarray, index: int) -> float:
     """Standard deviation of the motion about the line between its neighbours, at the speeds nearest to a place; NaN for few."""
     if len(speeds) < 3:
         return np.nan
@@ -111,7 +112,7 @@ def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:
     return float(_OF_NORMAL * np.median(off[near]))
 
 
-def _fall(speeds: np.ndarray, level: np.ndarray, peak_index: int) -> tuple[float, float]:
+def _fall(speeds: ndarray, level: ndarray, peak_index: int) -> tuple[float, float]:
     """Speed (rad/s) above a peak from which on the motion is below half of the peak's, and half of where it is so by turns."""
     loud = level[peak_index:] >= 0.5 * level[peak_index]
     quiet = np.flatnonzero(~loud)

@@ -8,7 +8,7 @@ Sustained: above yield in most of the later revolutions, wherever the model is. 
 from collections.abc import Callable, Sequence
 
 import numpy as np
-import xarray as xr
+from xarray import DataArray, Dataset
 
 from r37core.time_integration.status import RunStatus
 
@@ -25,13 +25,13 @@ STRESSES = {
 """Column of DANGER -> variable of a response whose largest value it is."""
 
 
-def ratio_to_yield(response: xr.Dataset, stress: str) -> xr.DataArray:
+def ratio_to_yield(response: Dataset, stress: str) -> DataArray:
     """A stress as a share of yield, over the speeds that were run; infinite if diverged."""
     ratio = response[stress] / response["yield_stress"]
     return ratio.where(response["status"] != RunStatus.DIVERGED, np.inf).dropna("speed")
 
 
-def ratio_inside(response: xr.Dataset) -> xr.DataArray:
+def ratio_inside(response: Dataset) -> DataArray:
     """The largest stress before the model's limits are left, as a share of yield, over the speeds that were run.
 
     Infinite where a run diverged that had not left them before.
@@ -40,7 +40,7 @@ def ratio_inside(response: xr.Dataset) -> xr.DataArray:
     return ratio_to_yield(response.assign(status=response["status"].where(~left, RunStatus.COMPLETED)), "max_von_mises_inside")
 
 
-def danger_ranges(response: xr.Dataset, factor: float = 1.0) -> tuple[list[SpeedRange], list[SpeedRange]]:
+def danger_ranges(response: Dataset, factor: float = 1.0) -> tuple[list[SpeedRange], list[SpeedRange]]:
     """Ranges of dangerous speeds, and of unknown ones, which do not overlap; with stresses that are larger by a `factor`.
 
     Between two speeds the stress is a straight line; an unknown speed reaches half of the way to the next one.
@@ -53,20 +53,20 @@ def danger_ranges(response: xr.Dataset, factor: float = 1.0) -> tuple[list[Speed
     return dangerous, [part for within in reached for part in outside(within, dangerous) if part.length > 0.0]
 
 
-def ranges_of(response: xr.Dataset) -> dict[str, list[SpeedRange]]:
+def ranges_of(response: Dataset) -> dict[str, list[SpeedRange]]:
     """Ranges of dangerous, unknown and sustained speeds, by the name of the column that has their length."""
     sustained = exceedance_of(response).ranges(MOST_REVOLUTIONS)
     return dict(zip(names(LENGTHS), (*danger_ranges(response), sustained), strict=True))
 
 
-def grid_scatter(response: xr.Dataset, measure: Callable[[Sequence[SpeedRange]], float] | None = None) -> float:
+def grid_scatter(response: Dataset, measure: Callable[[Sequence[SpeedRange]], float] | None = None) -> float:
     """Standard deviation (rad/s) of the length, or another `measure`, of the dangerous speeds by the distance of the speeds."""
     ratio = ratio_inside(response)
     # an infinite one has no mean
     return Exceedance(ratio["speed"].values, ratio.clip(max=1e6).values, chance=False).scatter_of_length(1.0, measure)
 
 
-def largest_of(response: xr.Dataset) -> dict[str, float]:
+def largest_of(response: Dataset) -> dict[str, float]:
     """Columns of DANGER but for LENGTHS: the largest over all speeds; NaN of what is not computed."""
     measures = dict.fromkeys(names(DANGER[len(LENGTHS) :]), np.nan)
     if "share_of_revolutions_above_yield" in response and (shares := exceedance_of(response).shares).size:
@@ -83,7 +83,7 @@ def largest_of(response: xr.Dataset) -> dict[str, float]:
     return measures
 
 
-def danger_of(response: xr.Dataset) -> dict[str, float]:
+def danger_of(response: Dataset) -> dict[str, float]:
     """DANGER of all speeds of a response; NaN of what is not computed."""
     measures = dict.fromkeys(names(DANGER), np.nan) | largest_of(response)
     if "max_von_mises_inside" in response and response.sizes["speed"]:
@@ -91,7 +91,7 @@ def danger_of(response: xr.Dataset) -> dict[str, float]:
     return measures
 
 
-def moved_by_error(response: xr.Dataset, error: float) -> float:
+def moved_by_error(response: Dataset, error: float) -> float:
     """Largest change of the length (rad/s) of the dangerous speeds if the stress has a relative `error`.
 
     NaN where the error is not known.

@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
+from xarray import Dataset
 
 from r37core.base.dataset_file import attributes_of, joined_hash
 from r37core.base.io import InputFileError
@@ -49,7 +50,7 @@ def write_sweep_dataset(
     join(responses, Along(names=("tip_point", *DATASETS[kind], *FLAGS)), file, title, made)
 
 
-def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str, region: str = "") -> xr.Dataset:
+def response_of(datasets: Mapping[str, Dataset], blade: str, scene: str, region: str = "") -> Dataset:
     """One blade in one scene of the joined datasets as its response: their variables, over the speeds that it was run at.
 
     Its stress is that in a `region`, by default the one that decides. `datasets` by the keys of DATASETS, rms among them;
@@ -67,13 +68,13 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str, regi
     return xr.merge([joined, rest], join="outer")
 
 
-def response_in_operation(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
+def response_in_operation(datasets: Mapping[str, Dataset], blade: str, scene: str) -> Dataset:
     """The response that a verdict judges in operation: its further runs alone, where there are any."""
     further = _runs(datasets.get(FURTHER_RUNS), blade, scene)
     return further if further.sizes["speed"] else response_of(datasets, blade, scene)
 
 
-def with_further_runs(kind: str, dataset: xr.Dataset, further: xr.Dataset | None) -> xr.Dataset:
+def with_further_runs(kind: str, dataset: Dataset, further: Dataset | None) -> Dataset:
     """A joined dataset of a `kind`, or its part of a blade or scene, with a verdict's further runs in place of the sweep's."""
     if further is None or "status" not in further:
         return dataset
@@ -90,16 +91,16 @@ def with_further_runs(kind: str, dataset: xr.Dataset, further: xr.Dataset | None
     return whole.sel({name: joined[name] for name in ("blade", "scene")}).isel(dict.fromkeys(missing, 0))
 
 
-def _runs(dataset: xr.Dataset | None, blade: str, scene: str, region: str = "") -> xr.Dataset:
+def _runs(dataset: Dataset | None, blade: str, scene: str, region: str = "") -> Dataset:
     """One blade and scene of a joined dataset, at the speeds that it was run at: none where the dataset does not have it."""
     if dataset is None or "status" not in dataset or not (blade in dataset["blade"] and scene in dataset["scene"]):
-        return xr.Dataset(coords={"speed": []})
+        return Dataset(coords={"speed": []})
     part = dataset.sel(blade=blade, scene=scene, drop=True)
     part = part.sel(region=region, drop=True) if region and "region" in part.dims else judged(part)
     return ran(part)
 
 
-def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
+def overlaid(below: Dataset, above: Dataset) -> Dataset:
     """Runs `below` with those of `above` in place of them where these are, over the speeds of both and no other coordinate."""
     below, above = (runs.reset_coords(drop=True) for runs in (below, above))
     kept = below.isel(speed=np.flatnonzero(~np.isin(below["speed"].values, above["speed"].values)))

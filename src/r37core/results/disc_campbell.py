@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import scipy
-import xarray as xr
+from numpy import ndarray
+from xarray import DataArray, Dataset
 
 from r37core.base.dataset_file import SPEED
 from r37core.base.variable import Variable
@@ -36,14 +37,14 @@ class Families(NamedTuple):
     """
 
     names: tuple[str, ...]
-    frequencies: np.ndarray
-    every: np.ndarray
-    likeness: np.ndarray
-    shapes: np.ndarray
-    continuity: np.ndarray
+    frequencies: ndarray
+    every: ndarray
+    likeness: ndarray
+    shapes: ndarray
+    continuity: ndarray
 
 
-def named_order(model: ReducedModel, assurance: np.ndarray, count: int) -> tuple[tuple[str, ...], np.ndarray]:
+def named_order(model: ReducedModel, assurance: ndarray, count: int) -> tuple[tuple[str, ...], ndarray]:
     """Names and order of `count` modes by their MAC with the ideal shapes, shape (shapes, modes), of ascending frequency.
 
     The names of the shapes go to the modes with the largest sum of MAC; the others follow by frequency: 4, 5, ...
@@ -54,7 +55,7 @@ def named_order(model: ReducedModel, assurance: np.ndarray, count: int) -> tuple
     return names[:count], np.array([*named, *others])[:count]
 
 
-def disc_families(model: ReducedModel, speeds: np.ndarray, count: int, among: int) -> Families:
+def disc_families(model: ReducedModel, speeds: ndarray, count: int, among: int) -> Families:
     """The `count` lowest families at ascending `speeds` (rad/s), named at the highest nodal diameter (the disc moves least).
 
     There 1B, 1T and 2B are the modes, of so many, that are most like the ideal shapes, and the others follow by frequency. At
@@ -88,7 +89,7 @@ def disc_families(model: ReducedModel, speeds: np.ndarray, count: int, among: in
     )
 
 
-def frequency_at_order(campbell: xr.Dataset, mode: str, order: int | None) -> xr.DataArray:
+def frequency_at_order(campbell: Dataset, mode: str, order: int | None) -> DataArray:
     """Frequency (Hz) over speed of a mode, on a disc at the nodal diameter that the engine order excites.
 
     Without an order, and of a blade without a disc, the one that all nodal diameters of a stiff disc share.

@@ -7,6 +7,7 @@ the model, unknown where the model is left first, else below.
 from collections.abc import Mapping
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.variable import Variable
 from r37core.stress.statistic import Strengths, goodman_history
@@ -50,7 +51,7 @@ OF_GOODMAN = {
 }
 
 
-def exit_of(run: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+def exit_of(run: Mapping[str, ndarray]) -> dict[str, ndarray]:
     """OF_EXIT of a run, by the arrays of its file."""
     firsts = first_revolutions_beyond(run)
     cause = min(firsts, key=firsts.__getitem__)
@@ -61,7 +62,7 @@ def exit_of(run: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     }
 
 
-def events_of(history: np.ndarray, limit: float, first: int, exit_revolution: float, diverged: float) -> tuple[np.ndarray, ...]:
+def events_of(history: ndarray, limit: float, first: int, exit_revolution: float, diverged: float) -> tuple[ndarray, ...]:
     """Events of one limit: its first revolution, their number, a Danger and the largest value inside the model, by region.
 
     `history`, shape (regions, revolutions), of the revolutions from number `first` on, NaN after the end; one that `diverged`
@@ -77,20 +78,18 @@ def events_of(history: np.ndarray, limit: float, first: int, exit_revolution: fl
     return np.where(np.isfinite(passed), passed, np.nan), above.sum(axis=1), danger, inside
 
 
-def yield_events(run: Mapping[str, np.ndarray], yield_stress: float, exit_revolution: float) -> dict[str, np.ndarray]:
+def yield_events(run: Mapping[str, ndarray], yield_stress: float, exit_revolution: float) -> dict[str, ndarray]:
     """OF_YIELD of a run, by the arrays of its file; yield in Pa."""
     values = _history_events(run, run["revolution_von_mises"], yield_stress, exit_revolution)
     return dict(zip(OF_YIELD, values, strict=True))
 
 
-def goodman_events(run: Mapping[str, np.ndarray], strengths: Strengths, exit_revolution: float) -> dict[str, np.ndarray]:
+def goodman_events(run: Mapping[str, ndarray], strengths: Strengths, exit_revolution: float) -> dict[str, ndarray]:
     """OF_GOODMAN of a run, by the arrays of its file."""
     return dict(zip(OF_GOODMAN, _history_events(run, goodman_history(run, strengths), 1.0, exit_revolution), strict=True))
 
 
-def _history_events(
-    run: Mapping[str, np.ndarray], history: np.ndarray, limit: float, exit_revolution: float
-) -> tuple[np.ndarray, ...]:
+def _history_events(run: Mapping[str, ndarray], history: ndarray, limit: float, exit_revolution: float) -> tuple[ndarray, ...]:
     """Events of a history that has all revolutions, or the last ones, of a run."""
     revolutions = len(run["revolution_maximum"])
     # one of all revolutions has them in place, one of those that were done ends with the last

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 import numpy as np
-import xarray as xr
+from numpy import ndarray
+from xarray import Dataset
 
 from r37core.time_integration.status import RunStatus
 
@@ -55,12 +56,12 @@ class Exceedance:
     `chance`: whether they scatter, as in direct contact; else they are taken as they are.
     """
 
-    speeds: np.ndarray
-    shares: np.ndarray
+    speeds: ndarray
+    shares: ndarray
     chance: bool
 
     @cached_property
-    def weights(self) -> np.ndarray:
+    def weights(self) -> ndarray:
         """Weight of each speed's share in the smoothed one of each speed, shape (speeds, speeds); the sum of a row is 1.
 
         A straight line falls from 1 at the speed itself to 0 at HALF_WIDTH, or farther off where speeds are few; each speed
@@ -80,7 +81,7 @@ class Exceedance:
         return weights / weights.sum(axis=1, keepdims=True)
 
     @cached_property
-    def smoothed(self) -> np.ndarray:
+    def smoothed(self) -> ndarray:
         """The shares, each the mean of its neighbours', shape (speeds,)."""
         return self.weights @ self.shares
 
@@ -97,7 +98,7 @@ class Exceedance:
         """Integral of the shares over speed (rad/s), without threshold and smoothing."""
         return float(np.trapezoid(self.shares, self.speeds))
 
-    def scatter_of_integral(self, measure: Callable[[np.ndarray], float] | None = None) -> float:
+    def scatter_of_integral(self, measure: Callable[[ndarray], float] | None = None) -> float:
         """Standard deviation of `integral` (rad/s), or of another `measure` of shares; NaN where there is no chance.
 
         By chance and distance of the speeds: a share changes anywhere between two of them; where it turns back at once, what is
@@ -114,7 +115,7 @@ class Exceedance:
         return float(np.sqrt(np.var([integral(shares) for shares in self.drawn]) + grid))
 
     @cached_property
-    def drawn(self) -> np.ndarray:
+    def drawn(self) -> ndarray:
         """Smoothed shares as chance could have had them, shape (draws, speeds); the same every time.
 
         Each speed's share is one of its neighbours', drawn by the weights.
@@ -167,18 +168,18 @@ class Exceedance:
         return scatter if np.isfinite(scatter) else np.nan
 
 
-def exceedance_of(response: xr.Dataset, share_of_revolutions: str = "share_of_revolutions_above_yield") -> Exceedance:
+def exceedance_of(response: Dataset, share_of_revolutions: str = "share_of_revolutions_above_yield") -> Exceedance:
     """Exceedance of a response by a share of its revolutions; a run that diverged is above in all revolutions."""
     share = response[share_of_revolutions].where(response["status"] != RunStatus.DIVERGED, 1.0).dropna("speed")
     return Exceedance(share["speed"].values, share.values, not is_lined(response))
 
 
-def is_lined(response: xr.Dataset) -> bool:
+def is_lined(response: Dataset) -> bool:
     """True where a lining is worn, false where the tip meets the casing itself."""
     return bool(response["lined"]) if "lined" in response else True
 
 
-def ranges_above(speeds: np.ndarray, values: np.ndarray, level: float) -> list[SpeedRange]:
+def ranges_above(speeds: ndarray, values: ndarray, level: float) -> list[SpeedRange]:
     """Where `values` at ascending `speeds` (rad/s) are above a `level`; between speeds they are a straight line.
 
     From an infinite value half of the way to one below counts.

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.speed_arrays import PLACE_OF_STRESS
@@ -30,7 +30,7 @@ the end of a branch the motion is chaotic.
 """
 
 
-def range_columns(response: xr.Dataset, exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
+def range_columns(response: Dataset, exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
     """How long a row's speeds are dangerous, unknown and sustained, and where, with the scatter of the borders of the last."""
     columns: dict[str, Any] = {}
     for length, parts in ranges_of(response).items():
@@ -46,9 +46,7 @@ def range_columns(response: xr.Dataset, exceedance: Exceedance, within: SpeedRan
     return columns
 
 
-def interaction_row(
-    response: xr.Dataset, index: int, reach: xr.Dataset, columns: Mapping[str, Any], note: str = ""
-) -> Interaction:
+def interaction_row(response: Dataset, index: int, reach: Dataset, columns: Mapping[str, Any], note: str = "") -> Interaction:
     """The row of a `response` with its peak at an `index` among the speeds; `columns`: crossing and what is known already.
 
     The largest of everything, and how its runs ended, are those of all speeds of its `reach`.
@@ -63,7 +61,7 @@ def interaction_row(
     danger = largest_of(reach)
     # where on the blade the largest stress of all speeds is
     at = danger["largest_stress_speed_rad_s"]
-    worst = reach.sel(speed=at) if at > 0.0 else xr.Dataset()
+    worst = reach.sel(speed=at) if at > 0.0 else Dataset()
     return {
         **dict.fromkeys(names(INTERACTIONS[2:]), np.nan),
         "peak_speed_rad_s": speed,
@@ -87,5 +85,5 @@ def interaction_row(
     }
 
 
-def _largest(reach: xr.Dataset, name: str) -> float:
+def _largest(reach: Dataset, name: str) -> float:
     return float(reach[name].max()) if name in reach else np.nan

@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import xarray as xr
+from numpy import ndarray
+from pandas import DataFrame
+from xarray import Dataset
 
 from r37core.base.peaks import prominent_peaks
 from r37core.rom.naming import NAMED_MODES
@@ -51,7 +53,7 @@ class _Peak:
     crossing: float
 
 
-def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: InteractionChoice) -> list[Interaction]:
+def find_interactions(response: Dataset, campbell: Dataset, choice: InteractionChoice) -> list[Interaction]:
     """Interactions of one blade in one scene, by ascending speed, from its response and its Campbell diagram.
 
     In a lined scene peaks are matched with 1B, 1T and 2B; in direct contact lines of the spectrum name them (named_by_lines).
@@ -70,7 +72,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     return rows_above_yield(response, peaks, partial(named_by_lines, campbell=campbell, choice=choice))
 
 
-def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: InteractionChoice) -> list[Interaction]:
+def _interactions(response: Dataset, campbell: Dataset | None, choice: InteractionChoice) -> list[Interaction]:
     """Interactions by the peaks alone; without a Campbell diagram none is matched with a mode."""
     speed, level = response["speed"].values, motion(response)
     peaks = [peak for direction in SPECTRA for peak in _peaks(response, campbell, direction, choice)]
@@ -93,7 +95,7 @@ def titles(interactions: Iterable[Interaction]) -> dict[float, str]:
     return {row["peak_speed_rad_s"]: interaction_title(row["mode"], row["engine_order"]) for row in interactions}
 
 
-def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, choice: InteractionChoice) -> Iterator[_Peak]:
+def _peaks(response: Dataset, campbell: Dataset | None, direction: str, choice: InteractionChoice) -> Iterator[_Peak]:
     curve = response[f"rms_{direction}"].fillna(0.0).values
     largest = curve.max()
     if not largest > 0.0:
@@ -111,7 +113,7 @@ def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, ch
 
 
 def _nearest_crossing(
-    campbell: xr.Dataset | None, speed: float, strongest: int | None, choice: InteractionChoice
+    campbell: Dataset | None, speed: float, strongest: int | None, choice: InteractionChoice
 ) -> tuple[str, int | None, float]:
     """Mode, engine order and speed of the nearest Campbell crossing of the strongest order in the allowed window.
 
@@ -127,7 +129,7 @@ def _nearest_crossing(
     return min(candidates)[1:] if candidates else ("", strongest, float("nan"))
 
 
-def _groups(peaks: list[_Peak], speed: np.ndarray, level: np.ndarray, choice: InteractionChoice) -> list[list[_Peak]]:
+def _groups(peaks: list[_Peak], speed: ndarray, level: ndarray, choice: InteractionChoice) -> list[list[_Peak]]:
     """Peaks that are one interaction together; the first of each has its crossing or, without one, its engine order."""
     ranked = sorted(peaks, key=lambda peak: (not peak.mode, -level[peak.index], -peak.height))
 
@@ -161,7 +163,7 @@ def _joined(parts: list[list[_Peak]], belongs: Callable[[list[_Peak], list[_Peak
     return groups
 
 
-def _loud(speed: np.ndarray, level: np.ndarray, peak: int) -> tuple[int, int]:
+def _loud(speed: ndarray, level: ndarray, peak: int) -> tuple[int, int]:
     """First and last index about the peak before the motion stays below QUIET of it for more than DROP_WITHIN."""
     loud = np.flatnonzero(level >= QUIET * level[peak])
     ends = np.flatnonzero(np.diff(speed[loud]) > DROP_WITHIN)
@@ -170,12 +172,12 @@ def _loud(speed: np.ndarray, level: np.ndarray, peak: int) -> tuple[int, int]:
     return max(int(first) - 1, 0), min(int(last) + 1, len(level) - 1)
 
 
-def _strongest(group: list[_Peak], level: np.ndarray) -> int:
+def _strongest(group: list[_Peak], level: ndarray) -> int:
     """Index of the peak with the largest motion, of those within the speeds if there is one."""
     return max(group, key=lambda peak: (peak.inner, level[peak.index])).index
 
 
-def _interaction(response: xr.Dataset, index: int, reach: xr.Dataset, group: list[_Peak]) -> Interaction:
+def _interaction(response: Dataset, index: int, reach: Dataset, group: list[_Peak]) -> Interaction:
     """The row of a group, from the response up to where it drops, the `index` of its peak, and the response in its reach."""
     first = group[0]
     directions = {peak.direction for peak in group if peak.index == index}
@@ -192,7 +194,7 @@ def _interaction(response: xr.Dataset, index: int, reach: xr.Dataset, group: lis
     return interaction_row(response, index, reach, columns) | {"reach": ends}
 
 
-def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> pd.DataFrame:
+def summarise(datasets: Mapping[str, Dataset], choice: InteractionChoice) -> DataFrame:
     """Table of all interactions, columns as in INTERACTIONS, from the datasets `campbell`, `rms` and, if there, others."""
     rows = [
         {"blade": blade, "scene": scene} | interaction
@@ -200,7 +202,7 @@ def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> 
         for scene in datasets["rms"]["scene"].values
         for interaction in find_interactions(response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade), choice)
     ]
-    return pd.DataFrame(rows, columns=names(INTERACTIONS)).astype({"engine_order": "Int64"})
+    return DataFrame(rows, columns=names(INTERACTIONS)).astype({"engine_order": "Int64"})
 
 
 _OF = (
@@ -208,7 +210,7 @@ _OF = (
 )  # fmt: skip
 
 
-def sized(interactions: pd.DataFrame, rms: xr.Dataset) -> pd.DataFrame:
+def sized(interactions: DataFrame, rms: Dataset) -> DataFrame:
     """The table with columns `frequency`, `size`, `unit`, `danger` and `onward`.
 
     `frequency` (Hz): of the engine order at the peak speed, NaN without one. `size`: length of the dangerous speeds

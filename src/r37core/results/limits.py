@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.time_integration.integration_choice import HEATED
 from r37core.time_integration.status import Outcome
@@ -97,7 +98,7 @@ OF_LIMITS = tuple(dict.fromkeys([*_LIMITS, *(each.limit for each in _LIMITS.valu
 """Variables that the limits are of."""
 
 
-def _excess(runs: Mapping[Any, Any], name: str) -> tuple[np.ndarray, ...]:
+def _excess(runs: Mapping[Any, Any], name: str) -> tuple[ndarray, ...]:
     """Numbers of all runs, their limits, and which are beyond."""
     limit = _LIMITS[name].limit
     fixed = (
@@ -107,7 +108,7 @@ def _excess(runs: Mapping[Any, Any], name: str) -> tuple[np.ndarray, ...]:
     return values, limits, values > limits
 
 
-def beyond_limits(runs: Mapping[Any, Any]) -> np.ndarray:
+def beyond_limits(runs: Mapping[Any, Any]) -> ndarray:
     """True for the runs beyond any limit. `runs`: name -> numbers, all of one shape, NaN where they are not known."""
     return np.any(np.broadcast_arrays(*(_excess(runs, name)[2] for name in _LIMITS)), axis=0)
 
@@ -127,7 +128,7 @@ def reasons_beyond_limits(runs: Mapping[Any, Any]) -> dict[str, str]:
     return reasons
 
 
-def first_revolutions_beyond(run: Mapping[str, np.ndarray]) -> dict[Cause, float]:
+def first_revolutions_beyond(run: Mapping[str, ndarray]) -> dict[Cause, float]:
     """First revolution beyond each limit, by cause; infinite where there is none. `run`: arrays of its file.
 
     Energy that is unaccounted for is so from the first revolution on, and so is what is not known revolution by revolution. A
@@ -148,7 +149,7 @@ def first_revolutions_beyond(run: Mapping[str, np.ndarray]) -> dict[Cause, float
     return firsts
 
 
-def _first_hot_revolution(heat: np.ndarray, most: float) -> float:
+def _first_hot_revolution(heat: ndarray, most: float) -> float:
     """Last revolution of the first HEATED ones that make more than `most` heat (J) a revolution."""
     made = np.concatenate([[0.0], heat[np.isfinite(heat)]])
     window = max(min(HEATED, len(made) - 1), 1)

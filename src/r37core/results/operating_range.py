@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.declared import Key, speed_keys
 
@@ -61,7 +62,7 @@ class OperatingRange:
         """Speeds (rad/s) that are run themselves: idle, redline, and the ends of the judged range."""
         return (self.first, self.idle, self.redline, self.last)
 
-    def is_covered(self, speeds: np.ndarray) -> bool:
+    def is_covered(self, speeds: ndarray) -> bool:
         """True if runs at these ascending speeds (rad/s) reach over the whole judged range, but for rounding."""
         return bool(len(speeds) and speeds[0] <= self.first * (1.0 + _ROUNDING) and speeds[-1] >= self.last * (1.0 - _ROUNDING))
 
@@ -73,7 +74,7 @@ class OperatingRange:
         """Length (rad/s) of ranges of speeds, each with a `begin` and an `end` (rad/s), inside the judged range."""
         return float(sum(max(0.0, self.overlap(part.begin, part.end)) for part in ranges))
 
-    def time_density(self, speeds: np.ndarray) -> np.ndarray:
+    def time_density(self, speeds: ndarray) -> ndarray:
         """Density of the operating time over speed, relative to an even one, at each of these speeds (rad/s)."""
         whole = self.redline - self.idle
         flown = (speeds >= self.idle) & (speeds <= self.redline)
@@ -83,7 +84,7 @@ class OperatingRange:
             density = density + np.where(there, dwell.share * whole / (dwell.stop - dwell.start), 0.0)
         return density
 
-    def integral(self, speeds: np.ndarray, values: np.ndarray) -> float:
+    def integral(self, speeds: ndarray, values: ndarray) -> float:
         r"""Integral (rad/s) of `values` at ascending `speeds` from idle to redline, weighted by the operating time.
 
         (redline - idle) \int values(speed) p(speed) d speed, with p the density of the operating time; without dwells the plain

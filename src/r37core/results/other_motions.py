@@ -5,10 +5,10 @@ is not run is NaN.
 """
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 
-def swept(motions: xr.Dataset) -> xr.Dataset:
+def swept(motions: Dataset) -> Dataset:
     """Motions of one blade and scene at the speeds that they are run at."""
     return motions.isel(speed=np.flatnonzero(motions["differ"].notnull().values))
 

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import xarray as xr
+from pandas import DataFrame
+from xarray import Dataset
 
 from r37core.base.io import readable
 from r37core.base.units import si_name
@@ -32,7 +33,7 @@ _RANKS = ("rank", "rank_lowest", "rank_highest")
 _WITHIN = "length_dangerous_within_rad_s"
 
 
-def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chance_scatter: bool = True) -> dict[str, float]:
+def operating_measures(response: Dataset, operating: OperatingRange, *, chance_scatter: bool = True) -> dict[str, float]:
     """OPERATING of one blade in one scene; NaN without stress, and where the runs do not reach over the judged range.
 
     `chance_scatter`: whether chance is drawn.
@@ -57,7 +58,7 @@ def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chanc
 
 
 def robustness(
-    response: xr.Dataset, *, chance_scatter: bool = True, operating: OperatingRange | None = None, error: float = 0.0
+    response: Dataset, *, chance_scatter: bool = True, operating: OperatingRange | None = None, error: float = 0.0
 ) -> dict[str, float]:
     """ROBUSTNESS of one blade in one scene; NaN for what is not computed, and for a first speed that there is not.
 
@@ -109,7 +110,7 @@ def _known_within(exceedance: Exceedance, scatter: float, moved: float) -> float
 
 
 def measures_of(
-    datasets: Mapping[str, xr.Dataset], blade: str, scene: str, operating: OperatingRange | None, error: float
+    datasets: Mapping[str, Dataset], blade: str, scene: str, operating: OperatingRange | None, error: float
 ) -> dict[str, float]:
     """ROBUSTNESS of a blade in a scene of the datasets of a sweep and, with a range, OPERATING of what a verdict judges there.
 
@@ -121,7 +122,7 @@ def measures_of(
     return measures
 
 
-def length_sustained(response: xr.Dataset) -> float:
+def length_sustained(response: Dataset) -> float:
     """Length (rad/s) of the speeds above yield in most revolutions; NaN of a response without stress."""
     if "share_of_revolutions_above_yield" not in response:
         return np.nan
@@ -129,7 +130,7 @@ def length_sustained(response: xr.Dataset) -> float:
     return exceedance.length(MOST_REVOLUTIONS) if len(exceedance.speeds) else np.nan
 
 
-def measures_of_members(members: xr.Dataset) -> MeasuresOfMembers:
+def measures_of_members(members: Dataset) -> MeasuresOfMembers:
     """Columns of RANKED_BY of each blade and scene, member by member; `members`: a dataset of them."""
     pair_measures: MeasuresOfMembers = {}
     measures = [si_name(column)[0] for column in RANKED_BY]
@@ -146,7 +147,7 @@ def ranking_table(
     measures: Mapping[tuple[str, str], Mapping[str, float]],
     members: MeasuresOfMembers | None = None,
     contacts: Mapping[str, str] | None = None,
-) -> pd.DataFrame:
+) -> DataFrame:
     """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
 
     Ranks and chances are among blades of the same contact. `contacts`: what that of each blade acts on; None: all on the same.
@@ -156,26 +157,26 @@ def ranking_table(
     is; equal ones count half.
     """
     contacts = contacts or {}
-    table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in measures.items()])
+    table = DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in measures.items()])
     table.insert(2, "contact", [contacts.get(blade, "") for blade in table["blade"]])
     alike = ["scene", "contact"]
     # blades without stress have nothing to be ranked by
     known = table[table[RANKED_BY[0]].notna()]
-    ranks = pd.concat([ranks_of(rows) for _, rows in known.groupby(alike)] or [pd.DataFrame(columns=_RANKS)])
+    ranks = pd.concat([ranks_of(rows) for _, rows in known.groupby(alike)] or [DataFrame(columns=_RANKS)])
     for place, name in enumerate(_RANKS, 2):
         table.insert(place, name, ranks[name].reindex(table.index).astype("Int64"))
     if "exceedance_integral_operating_rad_s" in table:
         inside = table.groupby(alike)["exceedance_integral_operating_rad_s"].rank(method="min")
         table["rank_operating"] = inside.astype("Int64")
     if members:
-        table = pd.concat([table, pd.DataFrame([_member_columns(pair, members, contacts) for pair in measures])], axis=1)
+        table = pd.concat([table, DataFrame([_member_columns(pair, members, contacts) for pair in measures])], axis=1)
     if table.loc[table["rank"].notna(), "scene"].nunique() > 1:
         table = pd.concat([table, _overall(table)], axis=1)
     order = ["scene", "contact", "rank", *RANKED_BY]
     return table.sort_values(order, key=lambda keys: pd.Series(pd.factorize(keys)[0]) if keys.name in order[:2] else keys)
 
 
-def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
+def ranks_of(rows: DataFrame) -> DataFrame:
     """`rank`, `rank_lowest` and `rank_highest` of rows of one scene, by their brackets and what these are known within.
 
     One is surely better where its bracket ends below the other's. In the order of `rank_lowest`, then RANKED_BY, those than
@@ -192,10 +193,10 @@ def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
         shared[row] = place + 1 if begins else shared[group[0]]
     # what is sure need not be in one order: of three each may be surely better than the next
     columns = {"rank": shared.clip(lowest, highest), "rank_lowest": lowest, "rank_highest": highest}
-    return pd.DataFrame(columns, rows.index, dtype="Int64")
+    return DataFrame(columns, rows.index, dtype="Int64")
 
 
-def _overall(table: pd.DataFrame) -> pd.DataFrame:
+def _overall(table: DataFrame) -> DataFrame:
     """OVER_SCENES of the rows of a ranking; NaN for a blade without a rank in some of the scenes."""
     ranked = table[table["rank"].notna()]
     ranked = ranked.assign(bracket_end=ranked[list(_BRACKET)].sum(axis=1))
@@ -207,7 +208,7 @@ def _overall(table: pd.DataFrame) -> pd.DataFrame:
     return overall.reindex(table["blade"]).set_axis(table.index)
 
 
-def read_ranking(file: Path | str) -> pd.DataFrame:
+def read_ranking(file: Path | str) -> DataFrame:
     """ranking.csv. Raises InputFileError where it cannot be read, or a column is missing or has no numbers."""
     table = read_table(file)
     with readable(file):

@@ -3,22 +3,22 @@
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 from r37core.base.dataset_file import read_dataset
 
 
-def judged(dataset: xr.Dataset) -> xr.Dataset:
+def judged(dataset: Dataset) -> Dataset:
     """The dataset with the stress of its first region alone, the one that decides, without the dimension `region`."""
     return dataset.isel(region=0, drop=True) if "region" in dataset.dims else dataset
 
 
-def read_judged(file: Path | str, group: str | None = None) -> xr.Dataset:
+def read_judged(file: Path | str, group: str | None = None) -> Dataset:
     """The dataset of a file or its group, with the judged region alone. Raises InputFileError where it cannot be read."""
     return judged(read_dataset(file, group=group))
 
 
-def other_regions(dataset: xr.Dataset) -> list[str]:
+def other_regions(dataset: Dataset) -> list[str]:
     """Names of the regions that do not decide, as far as the dataset has stress there."""
     if "region" not in dataset.dims:
         return []

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.dataset_file import dataset_of, write_dataset
 from r37core.stress.statistic import UNKNOWN, Strengths, goodman_statistic, stress_statistic
@@ -30,7 +31,7 @@ def write_response(
     Speeds in `stress_history_speeds`, which have recorded it, keep the largest stress of every revolution. `yield_stress` (Pa)
     and `strengths`: of the blade's material. Raises InputFileError for a file that cannot be read.
     """
-    rows, histories, last = list[dict[str, np.ndarray]](), {}, dict[str, np.ndarray]()
+    rows, histories, last = list[dict[str, ndarray]](), {}, dict[str, ndarray]()
     for speed, speed_file in zip(speeds, files, strict=True):
         last = run_row(read_speed(speed_file), yield_stress, strengths)
         rows.append({name: np.asarray(last[name], entry.dtype) for name, entry in VARIABLES.items() if name in last})
@@ -45,7 +46,7 @@ def write_response(
     return file
 
 
-def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Strengths) -> dict[str, np.ndarray]:
+def run_row(run: Mapping[str, ndarray], yield_stress: float, strengths: Strengths) -> dict[str, ndarray]:
     """The variables of one speed, and the coordinates that they need."""
     sizes = sizes_of(run)
     values = {**run, **exit_of(run)}
@@ -68,7 +69,7 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
     return values
 
 
-def in_statistic(run: Mapping[str, np.ndarray], history: np.ndarray) -> np.ndarray:
+def in_statistic(run: Mapping[str, ndarray], history: ndarray) -> ndarray:
     """A history of a run, shape (rows, revolutions), over the revolutions in the statistic alone."""
     revolutions, end = len(run["revolution_maximum"]), int(run["statistic_end"])
     # a history of all revolutions has them in place, a shorter one is that of the last

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import scipy
-import xarray as xr
+from xarray import DataArray, Dataset
 
 from r37core.base.peaks import prominent_peaks
 
@@ -25,19 +25,19 @@ def modes_of(name: str) -> tuple[str, ...]:
     return tuple(re.split("[+-]", name))
 
 
-def frequency_named(campbell: xr.Dataset, name: str, order: int | None = None) -> xr.DataArray:
+def frequency_named(campbell: Dataset, name: str, order: int | None = None) -> DataArray:
     """Frequency (Hz) over speed of a mode or combination (modes_of) in a Campbell diagram; `order`: see frequency_at_order."""
     first, *second = (frequency_at_order(campbell, mode, order) for mode in modes_of(name))
     return (first + second[0] if "+" in name else abs(first - second[0])) if second else first
 
 
-def crossing_of(campbell: xr.Dataset, name: str, order: int) -> float:
+def crossing_of(campbell: Dataset, name: str, order: int) -> float:
     """Speed (rad/s) at which a blade's mode or combination (modes_of) crosses an engine order; NaN where none is known."""
     frequency = frequency_named(campbell, name, order)
     return crossing_speed(frequency["speed"].values, frequency.values, order)
 
 
-def named_by_lines(response: xr.Dataset, campbell: xr.Dataset, choice: InteractionChoice) -> dict[str, Any]:
+def named_by_lines(response: Dataset, campbell: Dataset, choice: InteractionChoice) -> dict[str, Any]:
     """Columns `mode`, `engine_order` and `campbell_speed_rad_s` of a `response` at one speed; empty where nothing has a name.
 
     The strongest line at a mode decides. At a whole order its mode is the name. Else it is a combination with the strongest
@@ -89,7 +89,7 @@ def _is_multiple(index: int, base: int) -> bool:
 
 
 def _lines_at_modes(
-    response: xr.Dataset, campbell: xr.Dataset, per_order: int, lobes: int, choice: InteractionChoice
+    response: Dataset, campbell: Dataset, per_order: int, lobes: int, choice: InteractionChoice
 ) -> list[tuple[float, int, str]]:
     """Lines of a spectrum that modes amplify, the strongest first: share of the largest amplitude, index, and mode.
 

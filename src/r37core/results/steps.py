@@ -5,8 +5,8 @@ from functools import reduce
 from typing import Any
 
 import numpy as np
-import pandas as pd
-import xarray as xr
+from pandas import DataFrame
+from xarray import Dataset
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import as_list, function_named, write_json
@@ -107,7 +107,7 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     write_table(added(ranking_table(measures, members, params.contacts)), output.table, digits=6)
 
 
-def _inputs(input: Any, params: Any) -> tuple[dict[str, xr.Dataset], Callable[[pd.DataFrame], pd.DataFrame]]:
+def _inputs(input: Any, params: Any) -> tuple[dict[str, Dataset], Callable[[DataFrame], DataFrame]]:
     """The datasets by name, and what adds the columns of extensions to a table."""
     files = dict(input.items())
     additions = [(function_named(function), files.pop(name)) for name, function in params.added.items()]

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.io import atomic_write, readable
 
@@ -39,23 +40,23 @@ class ContactModel:
     line, between the contact nodes, too; None where the contact nodes are all that is known of it.
     """
 
-    squared_frequencies: np.ndarray
-    stiffness_per_square: np.ndarray
-    displacement_operator: np.ndarray
-    radius: np.ndarray
-    theta: np.ndarray
-    tip_lengths: np.ndarray
+    squared_frequencies: ndarray
+    stiffness_per_square: ndarray
+    displacement_operator: ndarray
+    radius: ndarray
+    theta: ndarray
+    tip_lengths: ndarray
     tip_cone_angle: float
-    tip_displacement_operator: np.ndarray
-    to_reduced: np.ndarray
-    rotation_shapes: np.ndarray
-    rotation_stiffening: np.ndarray
+    tip_displacement_operator: ndarray
+    to_reduced: ndarray
+    rotation_shapes: ndarray
+    rotation_stiffening: ndarray
     logarithmic_stiffness: LogarithmicStiffness | None = None
     quadratic: QuadraticTerms | None = None
-    edge_displacement_operator: np.ndarray | None = None
-    edge_radius: np.ndarray | None = None
-    edge_theta: np.ndarray | None = None
-    edge_rotation_shapes: np.ndarray | None = None
+    edge_displacement_operator: ndarray | None = None
+    edge_radius: ndarray | None = None
+    edge_theta: ndarray | None = None
+    edge_rotation_shapes: ndarray | None = None
 
     @property
     def tip_radius(self) -> float:
@@ -76,7 +77,7 @@ class ContactModel:
         """True where the modes are those about the equilibrium under rotation."""
         return self.logarithmic_stiffness is not None
 
-    def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
+    def modes_at(self, speed: float) -> tuple[ndarray, ndarray]:
         """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed`; see BucklingError."""
         if self.logarithmic_stiffness is None:
             squares, modes = np.linalg.eigh(np.diag(self.squared_frequencies) + speed**2 * self.stiffness_per_square)
@@ -86,7 +87,7 @@ class ContactModel:
             raise BucklingError(speed)
         return np.sqrt(squares), modes
 
-    def displaced(self, speeds: np.ndarray) -> np.ndarray:
+    def displaced(self, speeds: ndarray) -> ndarray:
         """Displacement (m) of the contact nodes by rotation at `speeds` (rad/s), (3, speeds, nodes); see BucklingError."""
         amplitudes = rotation_amplitudes(self.rotation_stiffening, speeds)
         return amplitudes @ self.rotation_shapes.swapaxes(1, 2)

@@ -13,7 +13,8 @@ Method; weighted means as in mortar contact, B. I. Wohlmuth, SIAM J. Numer. Anal
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
+from numpy import ndarray
+from scipy.sparse import csr_array
 
 from r37core.fem.traces import Trace, chain_trace, edge_traces
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
@@ -30,13 +31,13 @@ class TipContact:
     (contact nodes,): of tip that each stands for, see tip_lengths.
     """
 
-    line: np.ndarray
-    chord: np.ndarray
-    weights: sp.csr_array
-    lengths: np.ndarray
+    line: ndarray
+    chord: ndarray
+    weights: csr_array
+    lengths: ndarray
 
     @property
-    def mean_chord(self) -> np.ndarray:
+    def mean_chord(self) -> ndarray:
         """Fractions of the chord of the contact nodes, shape (contact nodes,)."""
         return self.weights @ self.chord
 
@@ -54,7 +55,7 @@ def tip_contact(mesh: BladeMesh, boundary: BoundaryChoice) -> TipContact:
     lengths = tip_lengths(mesh.points[line], chord[line], positions)
     if boundary.contact == POINTS:
         nodes = line[_nearest(chord[line], positions)]
-        weights = sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(chord)))
+        weights = csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(chord)))
     else:
         traces = edge_traces(mesh.points, mesh.blocks, np.isin(np.arange(len(mesh.points)), line))
         if sum((trace.values.shape[1] - 1) * len(trace.nodes) for trace in traces) != len(line) - 1:
@@ -64,7 +65,7 @@ def tip_contact(mesh: BladeMesh, boundary: BoundaryChoice) -> TipContact:
     return TipContact(line, chord, weights, lengths)
 
 
-def contact_along(points: np.ndarray, chord: np.ndarray, boundary: BoundaryChoice) -> TipContact:
+def contact_along(points: ndarray, chord: ndarray, boundary: BoundaryChoice) -> TipContact:
     """Patches of nodes on a line, whose elements are not known: their displacement is linear between neighbours.
 
     `points` (m), shape (nodes, 3), and fractions `chord` of the line's length. Raises BoundaryError for too few nodes.
@@ -74,13 +75,13 @@ def contact_along(points: np.ndarray, chord: np.ndarray, boundary: BoundaryChoic
     return TipContact(numbers, chord, weights, tip_lengths(points, chord, positions))
 
 
-def mean_fields(weights: sp.csr_array, fields: np.ndarray) -> np.ndarray:
+def mean_fields(weights: csr_array, fields: ndarray) -> ndarray:
     """Fields at the contact nodes, shape (contact nodes, 3, columns), from those at all nodes, shape (nodes, 3, columns)."""
     nodes, axes, columns = fields.shape
     return (weights @ fields.reshape(nodes, axes * columns)).reshape(weights.shape[0], axes, columns)
 
 
-def tip_lengths(points: np.ndarray, chord: np.ndarray, positions: np.ndarray) -> np.ndarray:
+def tip_lengths(points: ndarray, chord: ndarray, positions: ndarray) -> ndarray:
     """Length (m) of tip, along the casing's meridian, that each contact node stands for, shape (positions,).
 
     The integral of the nodes' hats over the tip's line: together they cover it once. `points` (m), shape (nodes, 3), and
@@ -92,7 +93,7 @@ def tip_lengths(points: np.ndarray, chord: np.ndarray, positions: np.ndarray) ->
     return np.trapezoid(hats, meridian, axis=1)
 
 
-def mean_positions(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
+def mean_positions(points: ndarray, weights: csr_array) -> ndarray:
     """Positions (m), shape (contact nodes, 3): weighted means of radius, angle and axial position, so on the tip's cone."""
     alone = np.diff(weights.indptr) == 1
     radius, theta, axial = (weights @ part for part in cylinder(points))
@@ -102,12 +103,12 @@ def mean_positions(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
     return positions
 
 
-def _nearest(chord: np.ndarray, positions: np.ndarray) -> np.ndarray:
+def _nearest(chord: ndarray, positions: ndarray) -> ndarray:
     """Place of the node nearest to each of some positions, among nodes at fractions `chord`."""
     return np.abs(chord - positions[:, None]).argmin(axis=1)
 
 
-def _means(positions: np.ndarray, chord: np.ndarray, traces: list[Trace]) -> sp.csr_array:
+def _means(positions: ndarray, chord: ndarray, traces: list[Trace]) -> csr_array:
     """Weights of hats at `positions` of the chord, from integrals over edges; `chord`: of every node."""
     total = np.zeros((len(positions), len(chord)))
     for trace in traces:
@@ -115,4 +116,4 @@ def _means(positions: np.ndarray, chord: np.ndarray, traces: list[Trace]) -> sp.
         for row, unit in zip(total, np.eye(len(positions)), strict=True):
             shares = (np.interp(node_chord, positions, unit) * trace.measures) @ trace.values
             np.add.at(row, trace.nodes, shares)
-    return sp.csr_array(total / total.sum(axis=1, keepdims=True))
+    return csr_array(total / total.sum(axis=1, keepdims=True))

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg as la
-import scipy.sparse as sp
+from numpy import ndarray
+from scipy.sparse import csr_array
 
 from r37core.fem.solver import Solve, factorise, lowest_modes
 
@@ -20,24 +21,24 @@ class StateAtSpeed(NamedTuple):
     """A blade at a `speed` (rad/s): its `stiffness` (N/m) between unclamped degrees of freedom, and factors of it."""
 
     speed: float
-    stiffness: sp.csr_array
+    stiffness: csr_array
     solve: Solve
 
 
 def multi_speed_basis(
     states: Iterable[StateAtSpeed],
-    mass: sp.csr_array,
-    boundary: sp.csr_array,
+    mass: csr_array,
+    boundary: csr_array,
     reduction: ReductionChoice,
-    further: Callable[[StateAtSpeed], np.ndarray | None] | None = None,
-) -> tuple[np.ndarray, np.ndarray]:
+    further: Callable[[StateAtSpeed], ndarray | None] | None = None,
+) -> tuple[ndarray, ndarray]:
     """Constraint modes and fixed-interface modes in each of the states, as one basis: see combine_columns.
 
     `boundary`, shape (boundary coordinates, dofs): each row gives one of them from the displacements, by a 1 or by weights.
     The first state's constraint modes stay as they are, so that static responses to boundary loads are exact there. `further`:
     more columns of a state, shape (dofs, columns), or none.
     """
-    columns: list[np.ndarray] = []
+    columns: list[ndarray] = []
     for state in states:
         columns += constraint_and_fixed_modes(state.stiffness, mass, boundary, reduction.fixed_interface_modes, state.solve)
         if further is not None and (more := further(state)) is not None:
@@ -46,8 +47,8 @@ def multi_speed_basis(
 
 
 def combine_columns(
-    constraint_modes: np.ndarray, columns: np.ndarray, mass: sp.csr_array, boundary: sp.csr_array, tolerance: float
-) -> tuple[np.ndarray, np.ndarray]:
+    constraint_modes: ndarray, columns: ndarray, mass: csr_array, boundary: csr_array, tolerance: float
+) -> tuple[ndarray, ndarray]:
     """Basis of `columns`, shape (dofs, columns), and their normalised singular values, shape (columns,).
 
     The basis, shape (dofs, boundary coordinates + internal): `constraint_modes` as they are, whose coordinates are those of the
@@ -68,8 +69,8 @@ def combine_columns(
 
 
 def constraint_and_fixed_modes(
-    stiffness: sp.csr_array, mass: sp.csr_array, boundary: sp.csr_array, count: int, solve: Solve | None = None
-) -> tuple[np.ndarray, np.ndarray]:
+    stiffness: csr_array, mass: csr_array, boundary: csr_array, count: int, solve: Solve | None = None
+) -> tuple[ndarray, ndarray]:
     """Constraint modes, shape (dofs, boundary coordinates), and `count` fixed-interface modes, shape (dofs, count).
 
     Both come from factors of the whole stiffness, `solve` if the caller has them: forces on the boundary u_b = B u that bring
@@ -82,23 +83,23 @@ def constraint_and_fixed_modes(
     alone = _alone(boundary)
     constraint[alone] = boundary[:, alone].toarray().T
 
-    def solve_held(load: np.ndarray) -> np.ndarray:
+    def solve_held(load: ndarray) -> ndarray:
         displacement = solve(load)
         return displacement - constraint @ (boundary @ displacement)
 
     return constraint, lowest_modes(stiffness, mass, count, solve_held)[1]
 
 
-def projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
+def projected(matrix: csr_array, vectors: ndarray) -> ndarray:
     """A symmetric matrix in the coordinates of the basis `vectors`, symmetric to the bit."""
     return symmetric(vectors.T @ (matrix @ vectors))
 
 
-def symmetric(matrix: np.ndarray) -> np.ndarray:
+def symmetric(matrix: ndarray) -> ndarray:
     """The symmetric part of a matrix."""
     return 0.5 * (matrix + matrix.T)
 
 
-def _alone(boundary: sp.csr_array) -> np.ndarray:
+def _alone(boundary: csr_array) -> ndarray:
     """Degrees of freedom that are a boundary coordinate by themselves, which round-off has no part in."""
     return boundary.indices[boundary.indptr[:-1][np.diff(boundary.indptr) == 1]]

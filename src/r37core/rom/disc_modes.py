@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy import ndarray
 
 
 @dataclass(frozen=True)
@@ -16,21 +17,21 @@ class DiscModes:
     part of these in the coordinates of the reduced model; `sectors`: of the disc.
     """
 
-    squared_frequencies: np.ndarray
-    stiffness_per_square: np.ndarray
-    likeness: np.ndarray
-    shape_products: np.ndarray
-    highest_modes: np.ndarray
+    squared_frequencies: ndarray
+    stiffness_per_square: ndarray
+    likeness: ndarray
+    shape_products: ndarray
+    highest_modes: ndarray
     sectors: float
 
-    def modes(self, nodal_diameter: int, speed: float) -> tuple[np.ndarray, np.ndarray]:
+    def modes(self, nodal_diameter: int, speed: float) -> tuple[ndarray, ndarray]:
         """Angular frequencies (rad/s), ascending, negative below zero stiffness, and modes in those at rest, as columns."""
         real, imaginary = self.stiffness_per_square[:, nodal_diameter]
         stiffness = np.diag(self.squared_frequencies[nodal_diameter]) + speed**2 * (real + 1j * imaginary)
         squares, modes = np.linalg.eigh(stiffness)
         return np.sign(squares) * np.sqrt(np.abs(squares)), modes
 
-    def assurance(self, nodal_diameter: int, modes: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    def assurance(self, nodal_diameter: int, modes: ndarray, reference: ndarray) -> ndarray:
         """MAC of modes of a nodal diameter with modes of the highest one, shape (modes, reference), both as columns."""
         real, imaginary = self.likeness[:, nodal_diameter]
         return np.abs(modes.conj().T @ (real + 1j * imaginary) @ reference) ** 2

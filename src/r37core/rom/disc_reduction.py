@@ -14,6 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
+from numpy import ndarray
+from scipy.sparse import csr_array
 
 from r37core.fem.matrices import StructuralMatrices
 from r37core.fem.sector import Sector
@@ -34,22 +36,22 @@ _CHANGED = 1e-3
 class DiscReduction(NamedTuple):
     """Basis of sector 0, shape (unclamped dofs, coordinates), with its singular values, and fields of the reduced model."""
 
-    vectors: np.ndarray
-    singular_values: np.ndarray
-    rotation_shapes: np.ndarray
+    vectors: ndarray
+    singular_values: ndarray
+    rotation_shapes: ndarray
     fields: dict[str, Any]
 
 
 class _Wave(NamedTuple):
     """Modes at rest of a nodal diameter: squared frequencies, change per squared speed, and shapes of one sector's dofs."""
 
-    squares: np.ndarray
-    per_square: np.ndarray
-    shapes: np.ndarray
+    squares: ndarray
+    per_square: ndarray
+    shapes: ndarray
 
 
 def reduce_disc(
-    sector: Sector, matrices: StructuralMatrices, contact: sp.csr_array, reduction: ReductionChoice, ideal: np.ndarray
+    sector: Sector, matrices: StructuralMatrices, contact: csr_array, reduction: ReductionChoice, ideal: ndarray
 ) -> DiscReduction:
     """Reduce a disc, of whose `sector` these are the `matrices`.
 
@@ -59,7 +61,7 @@ def reduce_disc(
         raise ValueError(f"kinematics {reduction.kinematics} on a disc; allowed: {LINEAR}")
     stiffness, mass, per_square = matrices.stiffness(), matrices.mass(), matrices.geometric_stiffness()
     if reduction.spin_softening:
-        per_square = sp.csr_array(per_square + matrices.spin_softening())
+        per_square = csr_array(per_square + matrices.spin_softening())
     cyclic = [sector.matrix(part) for part in (stiffness, mass, per_square)]
     waves = []
     for number in sector.nodal_diameters:
@@ -75,7 +77,7 @@ def reduce_disc(
     constraint = la.solve(boundary @ flexibility, flexibility.T, assume_a="pos").T
     kept = la.block_diag(*(_real(_kept(wave, reduction)) for wave in waves))
     columns, identity = np.hstack([constraint, kept]), sp.eye_array(len(squares), format="csr")
-    basis, singular = combine_columns(constraint, columns, identity, sp.csr_array(boundary), reduction.basis_tolerance)
+    basis, singular = combine_columns(constraint, columns, identity, csr_array(boundary), reduction.basis_tolerance)
     rotation_shapes, stiffening = _rotation(sector, stiffness, per_square, matrices.free_load, reduction.speeds)
     reduced_mass, first = symmetric(basis.T @ basis), len(squares) - len(waves[-1].squares) * _parts(waves[-1])
     fields = {
@@ -89,9 +91,7 @@ def reduce_disc(
     return DiscReduction(moved @ basis, singular, rotation_shapes, fields)
 
 
-def _wave(
-    terms: list[sp.csr_array], solve: Solve, expansion: sp.csr_array, contact: sp.csr_array, reduction: ReductionChoice
-) -> _Wave:
+def _wave(terms: list[csr_array], solve: Solve, expansion: csr_array, contact: csr_array, reduction: ReductionChoice) -> _Wave:
     """Modes of one nodal diameter from its stiffness, with what solves with it, mass and change of the stiffness per square."""
     stiffness, mass, per_square = terms
     _, lowest = lowest_modes(stiffness, mass, reduction.fixed_interface_modes, solve)
@@ -106,7 +106,7 @@ def _wave(
     return _Wave(squares, shapes.conj().T @ (per_square @ shapes), expansion @ shapes)
 
 
-def _kept(wave: _Wave, reduction: ReductionChoice) -> np.ndarray:
+def _kept(wave: _Wave, reduction: ReductionChoice) -> ndarray:
     """The lowest modes at the speeds of the basis, in the modes at rest, without what they have in common."""
     speed_vectors = [
         la.eigh(np.diag(wave.squares) + speed**2 * wave.per_square)[1][:, : reduction.fixed_interface_modes]
@@ -121,12 +121,12 @@ def _parts(wave: _Wave) -> int:
     return 2 if np.iscomplexobj(wave.shapes) else 1
 
 
-def _real(matrix: np.ndarray) -> np.ndarray:
+def _real(matrix: ndarray) -> ndarray:
     """A matrix between amplitudes, between their real and imaginary parts."""
     return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]]) if np.iscomplexobj(matrix) else matrix
 
 
-def _moved(shapes: np.ndarray, sectors: int) -> np.ndarray:
+def _moved(shapes: ndarray, sectors: int) -> ndarray:
     """Displacement of sector 0 by each coordinate."""
     if not np.iscomplexobj(shapes):
         return shapes / np.sqrt(sectors)
@@ -134,18 +134,18 @@ def _moved(shapes: np.ndarray, sectors: int) -> np.ndarray:
 
 
 def _rotation(
-    sector: Sector, stiffness: sp.csr_array, per_square: sp.csr_array, load: np.ndarray, speeds: tuple[float, ...]
-) -> tuple[np.ndarray, np.ndarray]:
+    sector: Sector, stiffness: csr_array, per_square: csr_array, load: ndarray, speeds: tuple[float, ...]
+) -> tuple[ndarray, ndarray]:
     """Shapes and stiffening of rotation, in which all sectors move alike: see r37core.rom.rotation."""
     expansion = sector.expansion(1.0 + 0.0j)
     rest, change = (sector.matrix(part).at(1.0 + 0.0j) for part in (stiffness, per_square))
     pull = expansion.T @ load
-    displaced = [factorise(sp.csr_array(rest + speed**2 * change))(pull) for speed in speeds]
+    displaced = [factorise(csr_array(rest + speed**2 * change))(pull) for speed in speeds]
     shapes, stiffening = shapes_of_rotation(rest, change, np.stack(displaced, axis=1), pull)
     return expansion @ shapes, stiffening
 
 
-def _disc_modes(waves: list[_Wave], mass: sp.csr_array, ideal: np.ndarray, highest: np.ndarray, sectors: int) -> DiscModes:
+def _disc_modes(waves: list[_Wave], mass: csr_array, ideal: ndarray, highest: ndarray, sectors: int) -> DiscModes:
     """The waves as a reduced model keeps them, all with as many modes as the one with the fewest."""
     count = min(len(wave.squares) for wave in waves)
     units = [
@@ -163,6 +163,6 @@ def _disc_modes(waves: list[_Wave], mass: sp.csr_array, ideal: np.ndarray, highe
     )
 
 
-def _halves(values: np.ndarray) -> np.ndarray:
+def _halves(values: ndarray) -> ndarray:
     """Real and imaginary parts, shape (2, ...)."""
     return np.stack([values.real, np.imag(values)])

@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy import ndarray
 
 
 @dataclass(frozen=True)
@@ -24,13 +25,13 @@ class LogarithmicStiffness:
     `speeds` (rad/s), shape (2,): beside rest those at which it is exact.
     """
 
-    linear: np.ndarray
-    quadratic: np.ndarray
+    linear: ndarray
+    quadratic: ndarray
     rate: float
-    speeds: np.ndarray
+    speeds: ndarray
 
     @classmethod
-    def through(cls, squares: np.ndarray, stiffness: np.ndarray, speeds: np.ndarray) -> LogarithmicStiffness:
+    def through(cls, squares: ndarray, stiffness: ndarray, speeds: ndarray) -> LogarithmicStiffness:
         """Change of a blade with these `squares` of frequencies at rest (rad2/s2) and, in its modes at rest, this `stiffness`.
 
         `stiffness` (rad2/s2), shape (2, modes, modes), at two higher `speeds` (rad/s), shape (2,).
@@ -47,18 +48,18 @@ class LogarithmicStiffness:
         """t at a `speed` (rad/s)."""
         return float(np.log1p(self.rate * speed**2))
 
-    def spectrum(self, squares: np.ndarray, speed: float) -> tuple[np.ndarray, np.ndarray]:
+    def spectrum(self, squares: ndarray, speed: float) -> tuple[ndarray, ndarray]:
         """Squares of the frequencies (rad2/s2), ascending, and modes at a `speed` (rad/s), from the squares at rest."""
         place = self.abscissa(speed)
         logarithms, modes = np.linalg.eigh(np.diag(np.log(squares)) + place * self.linear + place**2 * self.quadratic)
         return np.exp(logarithms), modes
 
-    def relative_change(self, modes: np.ndarray, speed: float) -> np.ndarray:
+    def relative_change(self, modes: ndarray, speed: float) -> ndarray:
         """Relative change of the squared frequencies of some modes per squared speed (s2/rad2) at a `speed` (rad/s)."""
         change = self.linear + 2.0 * self.abscissa(speed) * self.quadratic
         return np.sum(modes * (change @ modes), axis=0) * self.rate / (1.0 + self.rate * speed**2)
 
-    def projected(self, shapes: np.ndarray) -> LogarithmicStiffness:
+    def projected(self, shapes: ndarray) -> LogarithmicStiffness:
         """The change in other coordinates, from matrices that these `shapes`, shape (coordinates, new coordinates), project."""
         linear, quadratic = (shapes.T @ matrix @ shapes for matrix in (self.linear, self.quadratic))
         return replace(self, linear=0.5 * (linear + linear.T), quadratic=0.5 * (quadratic + quadratic.T))

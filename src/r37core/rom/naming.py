@@ -1,6 +1,7 @@
 """Ideal bending and torsion shapes, by which the first modes get their names."""
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.mesh.blade_mesh import BladeMesh
 
@@ -23,7 +24,7 @@ def mode_label(name: str) -> str:
     return name if name in NAMED_MODES else f"mode {name}"
 
 
-def ideal_shapes(mesh: BladeMesh) -> dict[str, np.ndarray]:
+def ideal_shapes(mesh: BladeMesh) -> dict[str, ndarray]:
     """Displacement fields, shape (nodes, 3), named 1B, 1T and 2B.
 
     Bending moves along the blade's local normal as a clamped-free beam; torsion turns each section about mid-chord by
@@ -35,7 +36,7 @@ def ideal_shapes(mesh: BladeMesh) -> dict[str, np.ndarray]:
     return {name: amplitude[:, None] * mesh.normals for name, amplitude in zip(NAMED_MODES, amplitudes, strict=True)}
 
 
-def _beam_shape(span: np.ndarray, root: float) -> np.ndarray:
+def _beam_shape(span: ndarray, root: float) -> ndarray:
     ratio = (np.cosh(root) + np.cos(root)) / (np.sinh(root) + np.sin(root))
     x = root * span
     return np.cosh(x) - np.cos(x) - ratio * (np.sinh(x) - np.sin(x))

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 
 SHARE_OF_HEIGHT = 0.2
 """Displacement, as a share of the blade's height, beyond which displacements of second order hold for no blade."""
@@ -40,16 +41,14 @@ class QuadraticTerms:
     of the pairs a <= b; `cubic`, shape (3, modes, modes, modes, modes): of what is left of b; `height` (m) of the blade.
     """
 
-    coordinates: np.ndarray
-    derivatives: np.ndarray
-    cubic: np.ndarray
+    coordinates: ndarray
+    derivatives: ndarray
+    cubic: ndarray
     height: float
-    path_errors: np.ndarray
+    path_errors: ndarray
 
     @classmethod
-    def through(
-        cls, places: np.ndarray, coordinates: np.ndarray, derivatives: np.ndarray, cubic: np.ndarray, *more: Any
-    ) -> QuadraticTerms:
+    def through(cls, places: ndarray, coordinates: ndarray, derivatives: ndarray, cubic: ndarray, *more: Any) -> QuadraticTerms:
         """Terms with these `derivatives` and `cubic` at three places of the abscissa, the first axis of each."""
         coefficients = np.linalg.inv(np.vander(places, increasing=True))
         derivatives, cubic = (np.tensordot(coefficients, values, axes=1) for values in (derivatives, cubic))
@@ -59,7 +58,7 @@ class QuadraticTerms:
         """Share of the height up to which the tip's path is within an `error` (m) of full finite elements."""
         return float(np.interp(error, self.path_errors, PATH_SHARES))
 
-    def interpolated(self, place: float) -> tuple[np.ndarray, np.ndarray]:
+    def interpolated(self, place: float) -> tuple[ndarray, ndarray]:
         """`derivatives` and `cubic` at a place of the abscissa."""
         powers = place ** np.arange(3)
         return np.tensordot(powers, self.derivatives, axes=1), np.tensordot(powers, self.cubic, axes=1)
@@ -68,23 +67,23 @@ class QuadraticTerms:
         """Terms of a blade whose elastic modulus is larger by a factor."""
         return replace(self, cubic=self.cubic * factor)
 
-    def projected(self, modes: np.ndarray) -> QuadraticTerms:
+    def projected(self, modes: ndarray) -> QuadraticTerms:
         """The terms in coordinates y with x = modes y; `modes`, shape (coordinates, new coordinates)."""
         return replace(self, coordinates=self.coordinates @ modes, derivatives=self.derivatives @ modes)
 
 
-def mode_pairs(modes: int) -> tuple[np.ndarray, np.ndarray]:
+def mode_pairs(modes: int) -> tuple[ndarray, ndarray]:
     """First and second modes a <= b of the products of so many modes, each of shape (products,), in the products' order."""
     return np.triu_indices(modes)
 
 
-def products_of(amplitudes: np.ndarray) -> np.ndarray:
+def products_of(amplitudes: ndarray) -> ndarray:
     """Products q_a q_b, shape (..., products), of amplitudes of modes, shape (..., modes)."""
     first, second = mode_pairs(amplitudes.shape[-1])
     return amplitudes[..., first] * amplitudes[..., second]
 
 
-def followed_modes(overlap: np.ndarray) -> np.ndarray:
+def followed_modes(overlap: ndarray) -> ndarray:
     """The p_a among the modes of a speed: amplitudes of these, shape (p, modes), from mass products `overlap` of that shape.
 
     They span as many modes, those nearest to the p_a of the other speed, and are as near to these as they can be: so they
@@ -97,7 +96,7 @@ def followed_modes(overlap: np.ndarray) -> np.ndarray:
     return followed
 
 
-def pairings(products: np.ndarray, modes: int) -> np.ndarray:
+def pairings(products: ndarray, modes: int) -> ndarray:
     """X_ab,cd + X_ac,bd + X_ad,bc of symmetric `products` X of pairs, shape (pairs, pairs); shape (modes,) * 4."""
     first, second = mode_pairs(modes)
     number = np.empty((modes, modes), dtype=int)

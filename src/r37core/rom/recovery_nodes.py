@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy import ndarray
 
 
-def cylinder(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def cylinder(points: ndarray) -> tuple[ndarray, ndarray, ndarray]:
     """Radius (m), angle (rad) and axial position (m) of points, shape (n, 3)."""
     return np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0]), points[:, 2]
 
@@ -21,13 +22,13 @@ class RecoveryNodes:
     see r37core.rom.rotation.
     """
 
-    nodes: np.ndarray
-    points: np.ndarray
-    basis: np.ndarray
-    rotation_shapes: np.ndarray
+    nodes: ndarray
+    points: ndarray
+    basis: ndarray
+    rotation_shapes: ndarray
 
     @property
-    def fields(self) -> np.ndarray:
+    def fields(self) -> ndarray:
         """Displacement per reduced coordinate, then per amplitude of rotation's shapes, shape (n, 3, coordinates + shapes)."""
         return np.concatenate([self.basis, self.rotation_shapes], axis=2)
 
@@ -45,7 +46,7 @@ class RecoveryNodes:
         length = axial[-1] - axial[0]
         return float(np.arctan((radius[-1] - radius[0]) / length)) if length != 0.0 else 0.0
 
-    def cylindrical(self, displacement: np.ndarray) -> np.ndarray:
+    def cylindrical(self, displacement: ndarray) -> ndarray:
         """Turn displacements (..., n, 3) from x, y, z to radial, tangential (growing theta) and axial parts."""
         _, theta, _ = cylinder(self.points)
         x, y, z = np.moveaxis(displacement, -1, 0)

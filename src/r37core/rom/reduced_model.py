@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as la
+from numpy import ndarray
 
 from .contact_model import ContactModel
 from .craig_bampton import symmetric
@@ -32,23 +33,23 @@ class ReducedModel:
     the mesh that it is made of, 0 of matrices. `disc`: modes by nodal diameter, of a blade on a disc.
     """
 
-    stiffness: np.ndarray
-    geometric_stiffness: np.ndarray
-    mass: np.ndarray
-    spin_softening: np.ndarray | None = None
+    stiffness: ndarray
+    geometric_stiffness: ndarray
+    mass: ndarray
+    spin_softening: ndarray | None = None
     contact: str
     contact_nodes: RecoveryNodes
-    contact_chord: np.ndarray
-    contact_tip_lengths: np.ndarray
+    contact_chord: ndarray
+    contact_tip_lengths: ndarray
     tip_lines: dict[str, RecoveryNodes]
     stress_regions: dict[str, StressRegion]
     whole_blade: RecoveryNodes | None = None
     shape_names: tuple[str, ...]
-    shape_products: np.ndarray
-    shape_norms: np.ndarray
+    shape_products: ndarray
+    shape_norms: ndarray
     tolerance: float
-    singular_values: np.ndarray
-    rotation_stiffening: np.ndarray
+    singular_values: ndarray
+    rotation_stiffening: ndarray
     quadratic_residual: float
     logarithmic_stiffness: LogarithmicStiffness | None = None
     quadratic: QuadraticTerms | None = None
@@ -60,7 +61,7 @@ class ReducedModel:
         """Number of reduced coordinates."""
         return self.mass.shape[0]
 
-    def stiffness_at(self, speed: float) -> np.ndarray:
+    def stiffness_at(self, speed: float) -> ndarray:
         """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1, or that about the equilibrium there."""
         if self.logarithmic_stiffness is None:
             return self.stiffness + speed**2 * change_per_square(self)
@@ -69,7 +70,7 @@ class ReducedModel:
         shapes = self.mass @ (modes_at_rest @ modes)
         return symmetric((shapes * squares) @ shapes.T)
 
-    def modes(self, speed: float, count: int | None = None) -> tuple[np.ndarray, np.ndarray]:
+    def modes(self, speed: float, count: int | None = None) -> tuple[ndarray, ndarray]:
         """Lowest angular frequencies (rad/s), ascending, and mode shapes, shape (coordinates, modes), at `speed`.
 
         Shapes are mass-normalised. Frequencies below zero stiffness are given as negative numbers (a blade that buckles under
@@ -80,7 +81,7 @@ class ReducedModel:
         return frequencies[:count], shapes[:, :count]
 
 
-def change_per_square(model: ReducedModel) -> np.ndarray:
+def change_per_square(model: ReducedModel) -> ndarray:
     """Change of the stiffness per squared speed (N/m per rad2/s2): K1, with spin softening if the model has it."""
     return model.geometric_stiffness + (0.0 if model.spin_softening is None else model.spin_softening)
 
@@ -106,7 +107,7 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
     )
 
 
-def _node_fields(nodes: RecoveryNodes, modes: np.ndarray) -> dict[str, np.ndarray]:
+def _node_fields(nodes: RecoveryNodes, modes: ndarray) -> dict[str, ndarray]:
     """Fields of a contact model for nodes that are moved by `modes`, shape (coordinates, modes)."""
     radius, theta, _ = cylinder(nodes.points)
     return {
@@ -117,6 +118,6 @@ def _node_fields(nodes: RecoveryNodes, modes: np.ndarray) -> dict[str, np.ndarra
     }
 
 
-def _cylindrical_parts(nodes: RecoveryNodes, fields: np.ndarray) -> np.ndarray:
+def _cylindrical_parts(nodes: RecoveryNodes, fields: ndarray) -> ndarray:
     """Radial, tangential and axial parts, shape (3, nodes, fields), of displacements (x, y, z), shape (nodes, 3, fields)."""
     return nodes.cylindrical(np.moveaxis(fields, 2, 0)).transpose(2, 1, 0)

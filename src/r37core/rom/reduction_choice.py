@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import Annotated, Self
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.declared import Key
 from r37core.mesh.blade_mesh import TIP_LINES
@@ -57,14 +58,14 @@ class BoundaryChoice:
         """True where the contact nodes have equal distances."""
         return self.contact == POINTS if self.spacing is None else self.spacing == EVEN
 
-    def on(self, chord: np.ndarray) -> Self:
+    def on(self, chord: ndarray) -> Self:
         """The choice with a number of contact nodes, on a tip with nodes at fractions `chord` of its line."""
         if self.nodes is not None or self.contact == POINTS:
             return replace(self, nodes=self.most_nodes)
         counts = range(self.most_nodes, 0, -1)
         return replace(self, nodes=next((count for count in counts if _resolves(self, count, chord)), self.most_nodes))
 
-    def chord_positions(self, count: int) -> np.ndarray:
+    def chord_positions(self, count: int) -> ndarray:
         """Wanted fractions of the chord of so many contact nodes, from the leading to the trailing edge."""
         even = np.linspace(0.0, 1.0, count) if self.corners and count > 1 else (np.arange(count) + 0.5) / count
         if self.is_even:
@@ -73,7 +74,7 @@ class BoundaryChoice:
         return np.where(even == 0.5, 0.5, 0.5 - 0.5 * np.cos(np.pi * even))
 
 
-def contact_positions(choice: BoundaryChoice, chord: np.ndarray, place: str) -> np.ndarray:
+def contact_positions(choice: BoundaryChoice, chord: ndarray, place: str) -> ndarray:
     """Wanted fractions of the chord of the contact nodes, from leading to trailing edge, on nodes at fractions `chord`.
 
     Raises BoundaryError where the nodes nearest to two points are the same, and unless one of the nodes lies between any two
@@ -114,7 +115,7 @@ def _even_instead(choice: BoundaryChoice) -> str:
     return "" if choice.is_even else f"spacing: {EVEN}, "
 
 
-def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
+def _resolves(choice: BoundaryChoice, count: int, chord: ndarray) -> bool:
     """True where there are two nodes for each patch, one of them between it and the next."""
     positions = choice.chord_positions(count)
     following = np.searchsorted(positions, chord)

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
+from xarray import Dataset
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import readable
@@ -130,7 +130,7 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
         "contact": model.contact,
         "mesh_nodes": model.mesh_nodes,
     }
-    dataset = xr.Dataset(data, coords={"shape": list(model.shape_names)}, attrs=attributes)
+    dataset = Dataset(data, coords={"shape": list(model.shape_names)}, attrs=attributes)
     write_dataset(dataset, file, provenance)
 
 
@@ -163,13 +163,13 @@ def _variables(begin: str, source: Any, table: Mapping[str, tuple[tuple[str, ...
     }
 
 
-def _part(dataset: xr.Dataset, group: str, kind: type, table: Mapping[str, Any]) -> Any:
+def _part(dataset: Dataset, group: str, kind: type, table: Mapping[str, Any]) -> Any:
     """The part of the model whose variables begin with `group`; None where it has none."""
     values = {name: dataset[f"{group}_{name}"].values for name in table if f"{group}_{name}" in dataset}
     return kind(**{name: value if value.ndim else float(value) for name, value in values.items()}) if values else None
 
 
-def _region(dataset: xr.Dataset, group: str) -> StressRegion:
+def _region(dataset: Dataset, group: str) -> StressRegion:
     evaluated, elements = dataset[f"{group}_evaluated"], f"{group}_elements_"
     return StressRegion(
         description=str(evaluated.attrs["description"]),
@@ -182,5 +182,5 @@ def _region(dataset: xr.Dataset, group: str) -> StressRegion:
     )
 
 
-def _recovery(dataset: xr.Dataset, group: str) -> RecoveryNodes:
+def _recovery(dataset: Dataset, group: str) -> RecoveryNodes:
     return RecoveryNodes(*(dataset[f"{group}_{part}"].values for part in _OF_NODES))

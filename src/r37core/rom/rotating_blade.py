@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import scipy.linalg as la
+from numpy import ndarray
 
 from r37core.fem.equilibrium import Rotation
 from r37core.fem.large_displacement import LargeDisplacement
@@ -54,7 +55,7 @@ class RotatingBlade:
             # the factors are of a tangent near this one, which a basis may be of
             yield StateAtSpeed(speed, self._rotation.tangent(equilibrium.displacement, speed), equilibrium.solve)
 
-    def derivatives(self, state: StateAtSpeed) -> np.ndarray | None:
+    def derivatives(self, state: StateAtSpeed) -> ndarray | None:
         """Static derivatives of the lowest modes of a state that has been reached, shape (dofs, pairs); None without QUADRATIC.
 
         Columns of a basis: their scale counts for nothing.
@@ -68,7 +69,7 @@ class RotatingBlade:
         ]
         return state.solve(np.array(pushes).T)
 
-    def shapes_of_rotation(self) -> tuple[np.ndarray, np.ndarray]:
+    def shapes_of_rotation(self) -> tuple[ndarray, ndarray]:
         """Shapes (m s2/rad2), shape (dofs, 3), and kappa (s2/rad2), shape (3,), of the displacement: see r37core.rom.rotation.
 
         They give that of every speed of the basis, and from rest on the linear one.
@@ -80,7 +81,7 @@ class RotatingBlade:
         fields = np.array([self._rotation.free(field) for field in per_square])
         return la.solve(1.0 / (1.0 + np.outer(squares, stiffening)), fields).T, stiffening
 
-    def stiffness_terms(self, vectors: np.ndarray) -> dict[str, Any]:
+    def stiffness_terms(self, vectors: ndarray) -> dict[str, Any]:
         """Fields of the reduced model about its stiffness in a basis, spin softening in it."""
         mass, speeds = projected(self._matrices.mass(), vectors), self._reduction.speeds
         # assembled again, one after another: all of them at once would be the most that a reduction holds
@@ -101,9 +102,7 @@ class RotatingBlade:
             terms["quadratic"] = self._quadratic_terms(vectors, mass, stiffness, places)
         return terms
 
-    def _quadratic_terms(
-        self, vectors: np.ndarray, mass: np.ndarray, stiffness: np.ndarray, places: np.ndarray
-    ) -> QuadraticTerms:
+    def _quadratic_terms(self, vectors: ndarray, mass: ndarray, stiffness: ndarray, places: ndarray) -> QuadraticTerms:
         """Terms of second order, of the lowest modes of the middle speed and those that follow them at the others.
 
         `mass` and, at each speed, `stiffness`: in the basis `vectors`; `places`: of the speeds.
@@ -127,7 +126,7 @@ class RotatingBlade:
             cubic.append(third - pairings((modal / squares) @ modal.T, count))
         return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic), self._height, errors)
 
-    def _path_errors(self, lowest: np.ndarray, static: np.ndarray) -> np.ndarray:
+    def _path_errors(self, lowest: ndarray, static: ndarray) -> ndarray:
         """Largest radial errors (m) of the tip's path of second order up to PATH_SHARES, by a load on the first mode at rest.
 
         Full finite elements: the series (Cochelin, as of Rotation) of the displacement in the size a of the load. The path: at
@@ -136,7 +135,7 @@ class RotatingBlade:
         """
         mass, terms, orders = self._matrices.mass(), [], np.arange(1, _PATH_ORDER + 1)
 
-        def next_term(n: int, forces: np.ndarray) -> np.ndarray:
+        def next_term(n: int, forces: ndarray) -> ndarray:
             load = mass @ lowest[:, 0] if n == 1 else 0.0
             terms.append(self._matrices.solve_at_rest(load - self._rotation.free(forces)))
             return self._rotation.whole(terms[-1])
@@ -158,5 +157,5 @@ class RotatingBlade:
         return np.array([error.max(where=share <= most, initial=0.0) for most in PATH_SHARES])
 
     @staticmethod
-    def _paired(fields: list[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
+    def _paired(fields: list[ndarray]) -> list[tuple[ndarray, ndarray]]:
         return [(fields[a], fields[b]) for a, b in zip(*mode_pairs(len(fields)), strict=True)]

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.io import CarriedError
 
@@ -28,7 +29,7 @@ class BucklingError(CarriedError):
         )
 
 
-def rotation_amplitudes(stiffening: np.ndarray, speeds: float | np.ndarray) -> np.ndarray:
+def rotation_amplitudes(stiffening: ndarray, speeds: float | ndarray) -> ndarray:
     """Omega^2/(1 + kappa Omega^2) (rad2/s2), shape (..., shapes), of kappa = `stiffening` (s2/rad2), shape (shapes,).
 
     `speeds` (rad/s), shape (...,). Raises BucklingError where the rotation leaves no stiffness.
@@ -41,8 +42,8 @@ def rotation_amplitudes(stiffening: np.ndarray, speeds: float | np.ndarray) -> n
 
 
 def shapes_of_rotation(
-    stiffness: sp.csr_array, per_square: sp.csr_array, displaced: np.ndarray, load: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+    stiffness: sp.csr_array, per_square: sp.csr_array, displaced: ndarray, load: ndarray
+) -> tuple[ndarray, ndarray]:
     """Shapes v_i (v_i^T f) (m s2/rad2), shape (dofs, shapes), and their kappa_i (s2/rad2), shape (shapes,).
 
     `stiffness` K0 and `per_square` K1, over the degrees of freedom; `displaced`, shape (dofs, speeds): the displacements at

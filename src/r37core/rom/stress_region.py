@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.fem.material import Material
 from r37core.fem.stress import interpolated, recovered_stress, stress_numbers
@@ -31,13 +32,13 @@ class StressRegion:
     description: str
     highest_frequency: float
     nodes: RecoveryNodes
-    elements: dict[str, np.ndarray]
-    evaluated: np.ndarray
-    places: np.ndarray
+    elements: dict[str, ndarray]
+    evaluated: ndarray
+    places: ndarray
     integration_points: bool
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> ndarray:
         """Coordinates (m) of the evaluated points, shape (evaluated, 3)."""
         return interpolated(self.elements, self.nodes.points, self.integration_points)[self.evaluated]
 
@@ -45,18 +46,18 @@ class StressRegion:
 def make_regions(
     choices: Mapping[str, RegionChoice],
     mesh: BladeMesh,
-    recovery: Callable[[np.ndarray], RecoveryNodes],
+    recovery: Callable[[ndarray], RecoveryNodes],
     material: Material,
-    frequencies: np.ndarray,
-    modes: np.ndarray,
-    contact_nodes: np.ndarray,
+    frequencies: ndarray,
+    modes: ndarray,
+    contact_nodes: ndarray,
 ) -> dict[str, StressRegion]:
     """Regions of a mesh by name.
 
     `recovery`: what moves nodes of these numbers; `material`: of the blade; `frequencies` (Hz) and `modes`, shape (coordinates,
     modes), at rest; `contact_nodes`: mesh nodes that contact acts on.
     """
-    every_mode: dict[RegionChoice, np.ndarray] = {}
+    every_mode: dict[RegionChoice, ndarray] = {}
     regions = {}
     for name, choice in choices.items():
         elements, inside = choice.elements(mesh, contact_nodes), choice.integration_points
@@ -91,7 +92,7 @@ def make_regions(
     return regions
 
 
-def _candidates(stress: np.ndarray) -> np.ndarray:
+def _candidates(stress: ndarray) -> ndarray:
     """Places of the points that have the largest stress in some of many motions.
 
     `stress`, shape (5, points, fields), float32: deviatoric, of modes and of rotation's shapes. Motions are drawn by chance, so
@@ -108,6 +109,6 @@ def _candidates(stress: np.ndarray) -> np.ndarray:
     return np.unique(np.concatenate(worst))
 
 
-def _occurring(numbers: Mapping[str, np.ndarray]) -> np.ndarray:
+def _occurring(numbers: Mapping[str, ndarray]) -> ndarray:
     """Numbers that occur, of nodes or points by element type, ascending."""
     return np.unique(np.concatenate([np.empty(0, int), *(part.ravel() for part in numbers.values())]))

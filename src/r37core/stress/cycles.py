@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy import ndarray
 
 
 @dataclass(frozen=True)
@@ -12,12 +13,12 @@ class StressCycles:
     Each of shape (cycles,).
     """
 
-    amplitude: np.ndarray
-    mean: np.ndarray
-    count: np.ndarray
+    amplitude: ndarray
+    mean: ndarray
+    count: ndarray
 
 
-def rainflow_cycles(stress: np.ndarray, mean: np.ndarray | None = None) -> StressCycles:
+def rainflow_cycles(stress: ndarray, mean: ndarray | None = None) -> StressCycles:
     """Cycles of a `stress` (Pa) over time, shape (instants,), as ASTM E1049-85 counts them.
 
     `mean` (Pa), shape (instants,): of what the mean of a cycle is taken, that of its two ends; by default of the stress itself.

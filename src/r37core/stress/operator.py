@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.io import atomic_write, readable
 from r37core.rom.deviatoric import deviatoric
@@ -16,7 +17,7 @@ from r37core.rom.quadratic_terms import products_of
 from r37core.rom.rotation import rotation_amplitudes
 
 
-def von_mises(stress: np.ndarray) -> np.ndarray:
+def von_mises(stress: ndarray) -> ndarray:
     """Von Mises stress (Pa), shape (...), of components xx yy zz xy yz zx, shape (6, ...)."""
     xx, yy, zz, xy, yz, zx = stress
     normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
@@ -37,14 +38,14 @@ class StressOperator:
     coordinates): amplitudes of the modes whose products, of second order, follow the coordinates among the numbers.
     """
 
-    operator: np.ndarray
+    operator: ndarray
     coordinates: int
     region: str
-    band: np.ndarray | None = None
-    places: np.ndarray | None = None
-    per_rotation: np.ndarray | None = None
-    rotation_stiffening: np.ndarray | None = None
-    large_coordinates: np.ndarray | None = None
+    band: ndarray | None = None
+    places: ndarray | None = None
+    per_rotation: ndarray | None = None
+    rotation_stiffening: ndarray | None = None
+    large_coordinates: ndarray | None = None
 
     def displaced(self, speed: float) -> StressOperator:
         """The operator at a `speed` (rad/s): about the equilibrium there."""
@@ -55,24 +56,24 @@ class StressOperator:
         return replace(self, operator=operator, per_rotation=None)
 
     @cached_property
-    def deviatoric(self) -> np.ndarray:
+    def deviatoric(self) -> ndarray:
         """Parts per number whose length is the von Mises stress: shape (5, nodes, numbers + shapes), float32."""
         return deviatoric(self.operator)
 
     @cached_property
-    def trace(self) -> np.ndarray:
+    def trace(self) -> ndarray:
         """Sum of the normal stresses (Pa) per number, shape (nodes, numbers + shapes)."""
         return self.operator[:3].sum(axis=0)
 
-    def place(self, node: int) -> np.ndarray:
+    def place(self, node: int) -> ndarray:
         """Chord, span and thickness of one of the nodes; NaN where they are not known."""
         return np.full(3, np.nan) if self.places is None else self.places[node]
 
-    def have_rotation(self, coordinates: np.ndarray) -> bool:
+    def have_rotation(self, coordinates: ndarray) -> bool:
         """True where the coordinates, shape (instants, coordinates), have the amplitudes of rotation's shapes."""
         return coordinates.shape[1] > self.coordinates
 
-    def band_part(self, states: np.ndarray, shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def band_part(self, states: ndarray, shapes: ndarray) -> tuple[ndarray, ndarray]:
         """The part of `states`, shape (instants, numbers), in the modes that count, and their `shapes`.
 
         `shapes`, shape (coordinates, numbers): reduced coordinates per number; those given back are of the operator's numbers.
@@ -87,7 +88,7 @@ class StressOperator:
             return states, shapes
         return states @ (self.band @ shapes).T, np.eye(len(self.band))
 
-    def max_von_mises(self, coordinates: np.ndarray) -> np.ndarray:
+    def max_von_mises(self, coordinates: ndarray) -> ndarray:
         """Largest von Mises stress (Pa) over the region, shape (instants,).
 
         `coordinates`, shape (instants, coordinates), of the vibration alone, or with the amplitudes of rotation's shapes after
@@ -95,7 +96,7 @@ class StressOperator:
         """
         return self.von_mises(coordinates).max(axis=1)
 
-    def von_mises(self, coordinates: np.ndarray) -> np.ndarray:
+    def von_mises(self, coordinates: ndarray) -> ndarray:
         """Von Mises stress (Pa), shape (instants, nodes), for coordinates as above."""
         vibration, rotation = np.split(coordinates, [self.coordinates], axis=1)
         if self.band is not None:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import scipy.linalg as la
+from numpy import ndarray
 
 from r37core.fem.material import Material
 from r37core.fem.stress import recovered_stress, second_order_stress
@@ -41,14 +42,14 @@ def _operator(model: ReducedModel, region: StressRegion, material: Material) -> 
     basis = nodes.basis if band is None else nodes.basis @ band[1]
     evaluated, inside = region.evaluated, region.integration_points
 
-    def stress(fields: np.ndarray) -> np.ndarray:
+    def stress(fields: ndarray) -> ndarray:
         return recovered_stress(region.elements, nodes.points, fields, material, inside)[:, evaluated]
 
-    def second_order(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    def second_order(first: ndarray, second: ndarray) -> ndarray:
         return second_order_stress(region.elements, nodes.points, first, second, material, inside)[:, evaluated]
 
     rotation = nodes.rotation_shapes
-    large: dict[str, np.ndarray] = {}
+    large: dict[str, ndarray] = {}
     columns = [stress(basis), stress(rotation)]
     if model.logarithmic_stiffness is not None:
         columns[1] = _rotation_stress(model, model.logarithmic_stiffness.speeds, rotation, columns[1], second_order)
@@ -66,13 +67,13 @@ def _operator(model: ReducedModel, region: StressRegion, material: Material) -> 
     )
 
 
-SecondOrder = Callable[[np.ndarray, np.ndarray], np.ndarray]
+SecondOrder = Callable[[ndarray, ndarray], ndarray]
 """Stress of second order of two sets of fields, shape (6, nodes, fields)."""
 
 
 def _rotation_stress(
-    model: ReducedModel, speeds: np.ndarray, shapes: np.ndarray, first_order: np.ndarray, second_order: SecondOrder
-) -> np.ndarray:
+    model: ReducedModel, speeds: ndarray, shapes: ndarray, first_order: ndarray, second_order: SecondOrder
+) -> ndarray:
     """Stress per amplitude of rotation's shapes, of which `first_order` is linear: together that of large displacements.
 
     It is exact at rest and at the two `speeds` (rad/s).
@@ -87,8 +88,8 @@ def _rotation_stress(
 
 
 def _large_motion(
-    model: ReducedModel, basis: np.ndarray, rotation: np.ndarray, second_order: SecondOrder
-) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    model: ReducedModel, basis: ndarray, rotation: ndarray, second_order: SecondOrder
+) -> tuple[ndarray, dict[str, ndarray]]:
     """Columns of a stress operator for the products of second order of large displacements, and fields of StressOperator."""
     per_rotation = np.stack(
         [second_order(np.broadcast_to(shape[..., None], basis.shape), basis) for shape in np.moveaxis(rotation, 2, 0)]
@@ -101,7 +102,7 @@ def _large_motion(
     return weights * second_order(fields[..., first], fields[..., second]), large
 
 
-def _band(model: ReducedModel, region: StressRegion) -> tuple[np.ndarray, np.ndarray] | None:
+def _band(model: ReducedModel, region: StressRegion) -> tuple[ndarray, ndarray] | None:
     """Amplitudes per coordinate, shape (modes, coordinates), of the modes at rest that count, and their shapes; None: all."""
     if not np.isfinite(region.highest_frequency):
         return None

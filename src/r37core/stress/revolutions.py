@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial, reduce
 
 import numpy as np
+from numpy import ndarray
 
 from .operator import StressOperator
 
@@ -18,8 +19,8 @@ _AT_ONCE = 20
 
 
 def largest_of_revolutions(
-    stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray, per_revolution: int
-) -> tuple[np.ndarray, np.ndarray]:
+    stress: StressOperator, states: ndarray, shapes: ndarray, rotation: ndarray, per_revolution: int
+) -> tuple[ndarray, ndarray]:
     """Largest von Mises stress (Pa) of each revolution, and its node by its place in the operator, shape (revolutions,).
 
     `states`, shape (instants, numbers), of whole revolutions of `per_revolution` instants each; `shapes`, shape (coordinates,
@@ -35,9 +36,7 @@ def largest_of_revolutions(
     return np.sqrt(squares.max(axis=0).astype(float)), squares.argmax(axis=0)
 
 
-def _linear(
-    stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _linear(stress: StressOperator, states: ndarray, shapes: ndarray, rotation: ndarray) -> tuple[ndarray, ndarray]:
     """Parts whose length is the von Mises stress, shape (5, nodes, numbers), per number of a state, shape (numbers, instants).
 
     A steady stress of rotation is that of one more number, which is 1. In single precision.
@@ -51,13 +50,13 @@ def _linear(
     return parts, columns
 
 
-def _squares(parts: np.ndarray, columns: np.ndarray) -> np.ndarray:
+def _squares(parts: ndarray, columns: ndarray) -> ndarray:
     """Squares of the von Mises stress, shape (nodes, instants)."""
     stresses = parts.reshape(-1, len(columns)) @ columns
     return reduce(np.add, np.square(stresses, out=stresses).reshape(*parts.shape[:2], -1))
 
 
-def _all(parts: np.ndarray, columns: np.ndarray, per_revolution: int) -> np.ndarray:
+def _all(parts: ndarray, columns: ndarray, per_revolution: int) -> ndarray:
     """Largest square of the von Mises stress over all nodes at each instant, shape (instants,).
 
     With the parts D_n of a node and the numbers s of a state, in products, of which there are few:
@@ -69,7 +68,7 @@ def _all(parts: np.ndarray, columns: np.ndarray, per_revolution: int) -> np.ndar
     return _blockwise(lambda block: (weights @ (block[first] * block[second])).max(axis=0), columns, per_revolution)
 
 
-def _searched(parts: np.ndarray, columns: np.ndarray, per_revolution: int) -> np.ndarray:
+def _searched(parts: ndarray, columns: ndarray, per_revolution: int) -> ndarray:
     """Largest square of the von Mises stress over some nodes at each instant, shape (instants,).
 
     Nodes that are the worst at some instant of the last revolution are looked at in all instants, all nodes at the instant of
@@ -90,20 +89,20 @@ def _searched(parts: np.ndarray, columns: np.ndarray, per_revolution: int) -> np
     return largest
 
 
-def _worst(parts: np.ndarray, columns: np.ndarray) -> np.ndarray:
+def _worst(parts: ndarray, columns: ndarray) -> ndarray:
     """Largest square over the nodes, shape (instants,)."""
     return _squares(parts, columns).max(axis=0)
 
 
-def _blockwise(function: Callable[[np.ndarray], np.ndarray], columns: np.ndarray, per_revolution: int) -> np.ndarray:
+def _blockwise(function: Callable[[ndarray], ndarray], columns: ndarray, per_revolution: int) -> ndarray:
     """Results of a function over all instants, applied to a block of whole revolutions at a time."""
     length = _AT_ONCE * per_revolution
     return np.concatenate([function(columns[:, first : first + length]) for first in range(0, columns.shape[1], length)])
 
 
 def stress_cycles(
-    stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray, per_revolution: int, later: int
-) -> tuple[np.ndarray, np.ndarray]:
+    stress: StressOperator, states: ndarray, shapes: ndarray, rotation: ndarray, per_revolution: int, later: int
+) -> tuple[ndarray, ndarray]:
     """Alternating stress (Pa), shape (revolutions, nodes), and mean stress (Pa), shape (nodes,); arguments as above.
 
     Alternating: largest von Mises stress of the tensor less its mean over the `later` revolutions, in each revolution. With the
@@ -117,7 +116,7 @@ def stress_cycles(
     parts = stress.deviatoric[:, :, : len(shapes)] @ shapes.astype(np.float32)
     vibration = (states - mean_state).astype(np.float32)
 
-    def largest_square(revolution: np.ndarray) -> np.ndarray:
+    def largest_square(revolution: ndarray) -> ndarray:
         return reduce(np.add, (np.square(revolution @ part.T) for part in parts)).max(axis=0)
 
     revolutions = vibration.reshape(-1, per_revolution, vibration.shape[1])
@@ -126,7 +125,7 @@ def stress_cycles(
     return alternating, mean.astype(np.float32)
 
 
-def largest_cycles(alternating: np.ndarray, mean: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def largest_cycles(alternating: ndarray, mean: ndarray) -> tuple[ndarray, ndarray, ndarray]:
     """Pairs of stress_cycles that can be the largest by alternating/S_f + mean/S_u in a revolution, whatever the strengths.
 
     Alternating and mean stress (Pa), shape (pairs,), revolution by revolution, and how many are of each, shape (revolutions,).
@@ -143,7 +142,7 @@ def largest_cycles(alternating: np.ndarray, mean: np.ndarray) -> tuple[np.ndarra
     return alternating, mean, np.bincount(revolution, minlength=revolutions).astype(np.int32)
 
 
-def _corners(revolution: np.ndarray, mean: np.ndarray, alternating: np.ndarray) -> np.ndarray:
+def _corners(revolution: ndarray, mean: ndarray, alternating: ndarray) -> ndarray:
     """Mask of the pairs above the line between their neighbours, of ascending alternating stress, in the same revolution.
 
     One on or below it is no corner, whatever becomes of its neighbours.

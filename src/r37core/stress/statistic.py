@@ -9,6 +9,7 @@ from math import inf, isfinite
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 
 from .cycles import StressCycles
 
@@ -38,7 +39,7 @@ class Strengths:
         """True where a material has an S-N line."""
         return isfinite(self.exponent)
 
-    def share(self, alternating: np.ndarray, mean: np.ndarray) -> np.ndarray:
+    def share(self, alternating: ndarray, mean: ndarray) -> ndarray:
         """Share of the Goodman line, alternating/S_f + mean/S_u of stresses (Pa), compression as 0; NaN without strengths."""
         if not self.are_known:
             return np.full(np.shape(alternating), np.nan)
@@ -62,7 +63,7 @@ class Strengths:
 UNKNOWN = Strengths()
 
 
-def goodman_statistic(run: Mapping[str, np.ndarray], strengths: Strengths) -> dict[str, np.ndarray]:
+def goodman_statistic(run: Mapping[str, ndarray], strengths: Strengths) -> dict[str, ndarray]:
     """Numbers of a run, as fatigue_numbers has them, against its material's `strengths`, which are among them.
 
     Of each region the largest share of all nodes and revolutions, with its two stresses (Pa); of the later revolutions the
@@ -77,25 +78,23 @@ def goodman_statistic(run: Mapping[str, np.ndarray], strengths: Strengths) -> di
     return limits | dict(zip(names, np.array(rows, dtype=float).T, strict=True))
 
 
-def goodman_history(run: Mapping[str, np.ndarray], strengths: Strengths) -> np.ndarray:
+def goodman_history(run: Mapping[str, ndarray], strengths: Strengths) -> ndarray:
     """Largest share of the Goodman line of all nodes in each revolution, shape (regions, revolutions); none if it diverged."""
     return np.stack([_largest_shares(strengths.share(*pair), counts) for *pair, counts in _cycles_of_regions(run)])
 
 
-def _cycles_of_regions(run: Mapping[str, np.ndarray]) -> Iterator[tuple[np.ndarray, ...]]:
+def _cycles_of_regions(run: Mapping[str, ndarray]) -> Iterator[tuple[ndarray, ...]]:
     """Alternating and mean stress (Pa) of the largest cycles of each region, and their number in each revolution."""
     ends = np.cumsum(run["cycle_counts"].sum(axis=1))[:-1]
     return zip(np.split(run["cycle_alternating"], ends), np.split(run["cycle_mean"], ends), run["cycle_counts"], strict=True)
 
 
-def _largest_shares(share: np.ndarray, counts: np.ndarray) -> np.ndarray:
+def _largest_shares(share: ndarray, counts: ndarray) -> ndarray:
     """The largest of the shares of each revolution, which has so many of them."""
     return np.maximum.reduceat(share, np.cumsum(counts) - counts) if len(share) else share
 
 
-def _goodman(
-    alternating: np.ndarray, mean: np.ndarray, counts: np.ndarray, strengths: Strengths, later: int
-) -> tuple[Any, ...]:
+def _goodman(alternating: ndarray, mean: ndarray, counts: ndarray, strengths: Strengths, later: int) -> tuple[Any, ...]:
     """Numbers of one region, medians and shares over so many later revolutions."""
     share = strengths.share(alternating, mean)
     if not len(share) or not np.isfinite(share).all():
@@ -104,7 +103,7 @@ def _goodman(
     return share[worst], np.median(last), np.mean(last > 1.0), alternating[worst], mean[worst]
 
 
-def stress_statistic(of_revolutions: np.ndarray, yield_stress: float) -> dict[str, np.ndarray]:
+def stress_statistic(of_revolutions: ndarray, yield_stress: float) -> dict[str, ndarray]:
     """Median and HIGH quantile (Pa) of the largest stress of each revolution (Pa), and the share of them above yield.
 
     `of_revolutions`, shape (..., revolutions): of the last half of a run; NaN where there is one among them: it diverged.

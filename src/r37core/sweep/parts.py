@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-import numpy as np
+from numpy import ndarray
 
 from r37core.base.speeds import exact_text
 from r37core.base.variable import Variable
@@ -17,7 +17,7 @@ from r37core.time_integration.speed_job import run_job
 
 from .counts import count_simulation
 
-Numbers = Mapping[str, np.ndarray]
+Numbers = Mapping[str, ndarray]
 """Numbers of a simulation, its status among them."""
 
 

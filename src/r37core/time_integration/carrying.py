@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
@@ -37,13 +38,13 @@ class CarriedMotion:
     as in SimulationState; `wear` is None where the next run has a new lining, or none.
     """
 
-    displacement: np.ndarray
-    velocity: np.ndarray
-    touched: np.ndarray
-    contact_force: np.ndarray
-    penetration: np.ndarray
-    bar_position: np.ndarray
-    wear: np.ndarray | None = None
+    displacement: ndarray
+    velocity: ndarray
+    touched: ndarray
+    contact_force: ndarray
+    penetration: ndarray
+    bar_position: ndarray
+    wear: ndarray | None = None
 
     @classmethod
     def ended(cls, problem: Problem, state: SimulationState, *, keep_wear: bool = False) -> "CarriedMotion":
@@ -57,12 +58,12 @@ class CarriedMotion:
         return cls(displacement, velocity, **kept, wear=state.wear.copy() if keep_wear and state.wear.size else None)
 
     @property
-    def arrays(self) -> dict[str, np.ndarray]:
+    def arrays(self) -> dict[str, ndarray]:
         """The motion as named arrays, of which `at_end` makes it again."""
         return {f"{_MOTION}{name}": part for name, part in vars(self).items() if part is not None}
 
     @classmethod
-    def at_end(cls, numbers: Mapping[str, np.ndarray]) -> "CarriedMotion | None":
+    def at_end(cls, numbers: Mapping[str, ndarray]) -> "CarriedMotion | None":
         """The motion among the numbers of a run; None of one that diverged."""
         if int(numbers["status"]) != RunStatus.COMPLETED:
             return None
@@ -84,7 +85,7 @@ class CarriedMotion:
             np.maximum(state.wear, self.wear, out=state.wear)
 
 
-def motion_names(numbers: Mapping[str, np.ndarray]) -> list[str]:
+def motion_names(numbers: Mapping[str, ndarray]) -> list[str]:
     """Names of the arrays of the motion among the numbers of a run."""
     return [name for name in numbers if name.startswith(_MOTION)]
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Scene
@@ -38,7 +39,7 @@ class CasingOfRun:
         return self.model.spun(self.grid.speed) if displaced else self.model
 
     @cached_property
-    def clearance(self) -> np.ndarray:
+    def clearance(self) -> ndarray:
         """Clearance of the round casing at each contact node (m), shape (nodes,)."""
         return clearances(self.model, self.scene, np.array([self.grid.speed]))[0]
 
@@ -48,22 +49,22 @@ class CasingOfRun:
         return self.scene.casing.rise_time(self.grid.duration, self.grid.choice.length_of_rise_fraction)
 
     @property
-    def rotation_velocity(self) -> np.ndarray:
+    def rotation_velocity(self) -> ndarray:
         """Sliding of the nodes over the casing by the rotation (m/s), positive along the tangent, shape (nodes,)."""
         return -self.tip.radius * self.grid.speed
 
     @cached_property
-    def pressed_areas(self) -> np.ndarray:
+    def pressed_areas(self) -> ndarray:
         """Area (m2) of lining that each contact node presses at a time, shape (nodes,); 0 without lining."""
         return self.scene.wear_law.pressed_areas(self.model.tip_lengths, self.model.tip_radius)
 
     @property
-    def lining_stiffness(self) -> np.ndarray:
+    def lining_stiffness(self) -> ndarray:
         """Elastic stiffness (N/m) of the lining under each contact node, shape (nodes,); 0 without lining."""
         return self.pressed_areas * self.scene.wear_law.stiffness
 
     @property
-    def bar_surfaces(self) -> np.ndarray:
+    def bar_surfaces(self) -> ndarray:
         """Surface (m2) of the casing under a bar of each contact node's ring, shape (nodes,); 0 without lining."""
         return self.scene.wear_law.bar_surfaces(self.model.tip_lengths, self.model.tip_radius)
 
@@ -72,23 +73,23 @@ class CasingOfRun:
         """Number of bars in each ring; 0 without lining."""
         return self.scene.wear_law.bars
 
-    def theta(self, step: np.ndarray | int) -> np.ndarray:
+    def theta(self, step: ndarray | int) -> ndarray:
         """Angle (rad) of the undeformed contact nodes at a step of a revolution; the rotor turns towards negative theta."""
         return self.tip.theta - 2.0 * np.pi * step / self.grid.steps_per_revolution
 
-    def opening(self, samples: np.ndarray) -> np.ndarray:
+    def opening(self, samples: ndarray) -> ndarray:
         """Clearance (m) that a run adds up to each sample, from the start on, in their shape."""
         return self.scene.casing.change_at((samples + 0.5) / self.grid.choice.samples_per_revolution)
 
     @property
-    def initial_wear(self) -> np.ndarray:
+    def initial_wear(self) -> ndarray:
         """Wear (m) of each ring of the lining where the tip reaches into it before anything vibrates, shape (rings, 1).
 
         The speed was reached slowly, so the tip has cut its way and presses nothing.
         """
         return np.maximum(-self.clearance, 0.0)[:, None]
 
-    def gaps(self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float) -> tuple[np.ndarray, np.ndarray]:
+    def gaps(self, clearance: ndarray, displacement: ndarray, step: int, angle: float) -> tuple[ndarray, ndarray]:
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
 
         `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its normal, tangent and

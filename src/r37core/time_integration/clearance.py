@@ -1,6 +1,7 @@
 """The room of the contact nodes: the round casing's clearance at each speed, and whether a run can begin with it."""
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.contact.casing import approach
 from r37core.contact.scene import Scene
@@ -14,7 +15,7 @@ class NoRoomError(ValueError):
     """A tip that reaches the casing before anything vibrates."""
 
 
-def clearances(model: ContactModel, scene: Scene, speeds: np.ndarray) -> np.ndarray:
+def clearances(model: ContactModel, scene: Scene, speeds: ndarray) -> ndarray:
     """Clearance (m) of the round casing at `speeds` (rad/s), shape (speeds, nodes).
 
     The casing's own, with its growth, less what rotation and a longer blade bring the node nearer to it. Raises BucklingError.
@@ -25,7 +26,7 @@ def clearances(model: ContactModel, scene: Scene, speeds: np.ndarray) -> np.ndar
     return (casing.clearance + casing.opening(speeds) - casing.longer)[:, None] - nearer
 
 
-def growth(model: ContactModel, speeds: np.ndarray, cone_angle: float) -> np.ndarray:
+def growth(model: ContactModel, speeds: ndarray, cone_angle: float) -> ndarray:
     """Distance (m) by which rotation at `speeds` (rad/s) brings the contact nodes nearer to a cone, shape (speeds, nodes).
 
     `cone_angle`: its half angle (rad). Raises BucklingError.
@@ -33,7 +34,7 @@ def growth(model: ContactModel, speeds: np.ndarray, cone_angle: float) -> np.nda
     return approach(model.radius, model.displaced(speeds), cone_angle)
 
 
-def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:
+def check_room(model: ContactModel, scene: Scene, speeds: ndarray) -> None:
     """NoRoomError where the tip reaches the round casing; a lining in front of it is worn by `cut`.
 
     A run that begins inside of a rigid casing would begin with a blow that is not there: the speed was reached slowly.

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.contact.casing import casing_axes
 
@@ -39,24 +40,24 @@ class ContactOperators:
         return joined(own, recursion(grid.choice.integrator, ring.frequencies, ring.damping_ratios, grid.time_step))
 
     @cached_property
-    def _shapes(self) -> np.ndarray:
+    def _shapes(self) -> ndarray:
         """Displacement in the modes at rest per displacement of all modes. The casing's move no mode of the blade."""
         return np.hstack([self.blade.modes, np.zeros((len(self.blade.modes), len(self._ring_rows[0, 0])))])
 
     @cached_property
-    def _ring_rows(self) -> np.ndarray:
+    def _ring_rows(self) -> ndarray:
         """Columns of the casing's modes in `displacement_operator`, with which the nodes come nearer to it."""
         if self.casing.ring is None:
             return np.empty((3, len(self.casing.tip.radius), 0))
         return -casing_axes(self.casing.ring.displacement(self.casing.tip.theta), self.casing.cone_angle)
 
     @cached_property
-    def operator_at_rest(self) -> np.ndarray:
+    def operator_at_rest(self) -> ndarray:
         """`displacement_operator` of the modes at rest."""
         return casing_axes(self.casing.tip.displacement_operator, self.casing.cone_angle)
 
     @cached_property
-    def displacement_operator(self) -> np.ndarray:
+    def displacement_operator(self) -> ndarray:
         """Displacement of the contact nodes along the casing's normal, tangent and meridian, shape (3, nodes, modes).
 
         Per displacement u of all modes. It is that relative to the casing, whose modes count against it.
@@ -67,7 +68,7 @@ class ContactOperators:
         return operator
 
     @cached_property
-    def static_shapes(self) -> np.ndarray:
+    def static_shapes(self) -> ndarray:
         """Displacement that follows forces on the contact nodes at once, shape (modes at rest, 3 nodes).
 
         That of the modes that are not stepped, of forces in the directions of `displacement_operator`: see static_modes. No
@@ -80,12 +81,12 @@ class ContactOperators:
         return (modes / frequencies**2) @ rows.T
 
     @cached_property
-    def product_shapes(self) -> np.ndarray:
+    def product_shapes(self) -> ndarray:
         """Displacement per product of second order, shape (modes at rest, products), see quadratic_motion; else no column."""
         return np.empty((len(self.blade.modes), 0)) if self.quadratic is None else self.quadratic.shapes
 
     @property
-    def product_operator(self) -> np.ndarray:
+    def product_operator(self) -> ndarray:
         """Displacement of the contact nodes per product of second order, shape (3, nodes, products)."""
         return self.operator_at_rest @ self.product_shapes
 
@@ -95,13 +96,13 @@ class ContactOperators:
         terms = self.blade.model.quadratic
         return None if terms is None else QuadraticMotion(self.blade, terms)
 
-    def put_followers(self, displacement: np.ndarray, velocity: np.ndarray) -> None:
+    def put_followers(self, displacement: ndarray, velocity: ndarray) -> None:
         """Put the blade's followers where they are pulled to, in place, in a displacement and a velocity of all modes."""
         if self.quadratic is not None:
             stepped = slice(len(self.blade.frequencies))
             self.quadratic.follow(displacement[stepped], velocity[stepped])
 
-    def second_order_energy(self, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
+    def second_order_energy(self, displacement: ndarray, increment: ndarray) -> ndarray:
         """Elastic energy (J), shape (...,), beyond that of linear modes; 0 without displacements of second order.
 
         Of displacements u_n and increments of all modes, shape (..., modes). It is the mean of those of u_n and u_{n-1}, as the
@@ -113,7 +114,7 @@ class ContactOperators:
         both = (self.quadratic.energy(each[..., stepped]) for each in (displacement, displacement - increment))
         return 0.5 * sum(both, np.zeros(displacement.shape[:-1]))
 
-    def static_energy(self, forces: np.ndarray) -> float:
+    def static_energy(self, forces: ndarray) -> float:
         """Elastic energy (J) of the static modes under `forces` (N) on the nodes, shape (3, nodes).
 
         It is all the work that the forces have done on them: what follows at once is elastic.
@@ -123,7 +124,7 @@ class ContactOperators:
         return 0.5 * float(modal_forces @ modal_forces)
 
     @property
-    def state_shapes(self) -> np.ndarray:
+    def state_shapes(self) -> ndarray:
         """Displacement in the modes at rest per number of a snapshot.
 
         They are the stepped modes' u, products of second order, then the contact forces (N).
@@ -131,7 +132,7 @@ class ContactOperators:
         return np.hstack([self._shapes, self.product_shapes, self.static_shapes])
 
     @cached_property
-    def output_operator(self) -> np.ndarray:
+    def output_operator(self) -> ndarray:
         """Rows of the samples, shape (6, numbers of a snapshot): see time_integration.simulate, TIP_POINTS and DIRECTIONS.
 
         After them one row for each of the casing's oscillators: displacement at the antinode of its mode (m).
@@ -147,7 +148,7 @@ class ContactOperators:
         return np.concatenate([outputs, ring_part])
 
     @cached_property
-    def contact_flexibility(self) -> np.ndarray:
+    def contact_flexibility(self) -> ndarray:
         """Normal displacement (m/N) of the last node by `static_shapes` per force on the first, along each direction.
 
         Shape (3, nodes, nodes). That of the static modes.
@@ -158,14 +159,14 @@ class ContactOperators:
         return (self.operator_at_rest[0] @ self.static_shapes).T.reshape(3, nodes, nodes)
 
     @cached_property
-    def coupling(self) -> np.ndarray:
+    def coupling(self) -> ndarray:
         """Normal displacement (m/N) of the last node, one step on, per normal, tangential or meridional force on the first.
 
         Shape (3, nodes, nodes).
         """
         return self.coupling_of(self.recursion.inverse)
 
-    def coupling_of(self, inverse: np.ndarray) -> np.ndarray:
+    def coupling_of(self, inverse: ndarray) -> ndarray:
         """`coupling` of the recursion's `inverse`, shape (..., modes); shape (..., 3, nodes, nodes)."""
         normal = self.displacement_operator[0]
         return np.stack([(rows * inverse[..., None, :]) @ normal.T for rows in self.displacement_operator], axis=-3)
@@ -185,7 +186,7 @@ class EdgeOperators:
         return ContactOperators(self.blade, self.casing)
 
     @cached_property
-    def flexibility(self) -> np.ndarray:
+    def flexibility(self) -> ndarray:
         """Normal displacement (m/N), shape (edge nodes, 3 contact nodes), that follows forces at once; see static_shapes."""
         return self.motion.operator_at_rest[0] @ self.contact.static_shapes
 
@@ -195,7 +196,7 @@ class EdgeOperators:
         return self.casing.scene.wear_law.thickness
 
     @property
-    def room(self) -> np.ndarray:
+    def room(self) -> ndarray:
         """Distance (m) of each node of the edge from the round casing, behind a lining where there is one, shape (nodes,)."""
         return self.casing.clearance + self.depth
 

@@ -1,6 +1,7 @@
 """Fatigue of a run at one speed: what its file keeps, so that a share of any strengths is read off without another run."""
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator, StressOperators, judged_operator
@@ -10,7 +11,7 @@ from .finished_run import FinishedRun
 from .problem import Problem
 
 
-def fatigue_numbers(run: FinishedRun, stress: StressOperators, shown: int) -> dict[str, np.ndarray]:
+def fatigue_numbers(run: FinishedRun, stress: StressOperators, shown: int) -> dict[str, ndarray]:
     """Alternating stress (Pa) of all revolutions, about the mean of those in the statistic; rotation is always in the mean.
 
     `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, in the region that
@@ -41,7 +42,7 @@ def fatigue_numbers(run: FinishedRun, stress: StressOperators, shown: int) -> di
     }
 
 
-def _cycles(problem: Problem, snapshots: np.ndarray, stress: StressOperator) -> tuple[np.ndarray, np.ndarray]:
+def _cycles(problem: Problem, snapshots: ndarray, stress: StressOperator) -> tuple[ndarray, ndarray]:
     """Stress of one blade in all revolutions with snapshots, of which the last ones are those of the statistic."""
     choice, model = problem.choice, problem.model
     shapes = model.to_reduced @ problem.contact.state_shapes

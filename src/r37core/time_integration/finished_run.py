@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
+from numpy import ndarray
 
 from .problem import Problem
 from .settling import Ending
@@ -43,10 +43,10 @@ class FinishedRun:
         """Revolutions of what is kept: those done, and after an early divergence as many as the statistic has."""
         return max(self.ending.revolutions, self.problem.choice.revolutions_in_statistic)
 
-    def leader(self, statistic: Sequence[np.ndarray]) -> int:
+    def leader(self, statistic: Sequence[ndarray]) -> int:
         """Place of the blade whose spectrum is kept, by the displacement (m) of each in the statistic, see numbers_of_run."""
         return 0
 
-    def numbers_of_each(self, samples: Sequence[np.ndarray], history: np.ndarray | None) -> dict[str, Any]:
+    def numbers_of_each(self, samples: Sequence[ndarray], history: ndarray | None) -> dict[str, Any]:
         """Numbers of each blade, none of a single one."""
         return {}

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import astuple, dataclass
 
 import numpy as np
+from numpy import ndarray
 
 CENTRAL_DIFFERENCE, EXACT_MODAL = INTEGRATORS = ("central_difference", "exact_modal")
 
-Numbers = float | np.ndarray
+Numbers = float | ndarray
 
 
 @dataclass(frozen=True)
@@ -24,12 +25,12 @@ class Recursion:
     E_n = ((1 + keep)/2 d_n^2 + pull u_n u_{n-1})/(2c), kinetic plus elastic energy up to the order of the step.
     """
 
-    keep: np.ndarray
-    pull: np.ndarray
-    inverse: np.ndarray
-    lost: np.ndarray
+    keep: ndarray
+    pull: ndarray
+    inverse: ndarray
+    lost: ndarray
 
-    def __getitem__(self, row: int | slice | np.ndarray | None) -> Recursion:
+    def __getitem__(self, row: int | slice | ndarray | None) -> Recursion:
         """Select one or some of several recursions, whose arrays have shape (recursions, modes), or some modes of one.
 
         None: one as several.
@@ -37,11 +38,11 @@ class Recursion:
         return type(self)(self.keep[row], self.pull[row], self.inverse[row], self.lost[row])
 
     @property
-    def loss(self) -> np.ndarray:
+    def loss(self) -> ndarray:
         """Energy lost to damping per step and squared u_{n+1} - u_{n-1}, shape (modes,)."""
         return self.lost / (4.0 * self.inverse)
 
-    def energy(self, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
+    def energy(self, displacement: ndarray, increment: ndarray) -> ndarray:
         """Energy E_n (J) of u_n and d_n, in the shape of the recursion; conserved by the free undamped one."""
         kinetic = 0.5 * (1.0 + self.keep) * increment**2
         return np.sum((kinetic + self.pull * displacement * (displacement - increment)) / (2.0 * self.inverse), axis=-1)
@@ -53,7 +54,7 @@ def joined(first: Recursion, second: Recursion) -> Recursion:
     return Recursion(*(np.concatenate(part, axis=-1) for part in parts))
 
 
-def central_difference(frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Recursion:
+def central_difference(frequencies: ndarray, damping_ratio: Numbers, step: Numbers) -> Recursion:
     """Central differences for modes of angular `frequencies` (rad/s), stable for steps (s) below 2/frequency.
 
     c = (1/h^2 + xi omega/h)^-1, b = c (xi omega/h - 1/h^2), a = c (2/h^2 - omega^2) = 1 - b - c omega^2: section 5 of the
@@ -68,7 +69,7 @@ def central_difference(frequencies: np.ndarray, damping_ratio: Numbers, step: Nu
     )
 
 
-def exact_modal(frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Recursion:
+def exact_modal(frequencies: ndarray, damping_ratio: Numbers, step: Numbers) -> Recursion:
     """The free motion of underdamped modes (damping ratio below 1) without error, for any step (s).
 
     u(t) = e^(-xi omega t) (A cos omega_d t + B sin omega_d t) satisfies u_{n+1} = a u_n + b u_{n-1} with
@@ -83,7 +84,7 @@ def exact_modal(frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) 
     return Recursion(keep=np.exp(-2.0 * decay), pull=pull, inverse=pull / frequencies**2, lost=-np.expm1(-2.0 * decay))
 
 
-def recursion(integrator: str, frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Recursion:
+def recursion(integrator: str, frequencies: ndarray, damping_ratio: Numbers, step: Numbers) -> Recursion:
     """The recursion of one of INTEGRATORS; of several with steps of shape (recursions, 1)."""
     stepping = {CENTRAL_DIFFERENCE: central_difference, EXACT_MODAL: exact_modal}
     return stepping[integrator](frequencies, damping_ratio, step)
@@ -93,19 +94,19 @@ def recursion(integrator: str, frequencies: np.ndarray, damping_ratio: Numbers, 
 class Increments:
     """Increment u_n - u_{n-1} of free modes per displacement u_n and per velocity at t_n, in the shape of a recursion."""
 
-    displacement_factor: np.ndarray
-    velocity_factor: np.ndarray
+    displacement_factor: ndarray
+    velocity_factor: ndarray
 
-    def increment(self, row: int, displacement: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    def increment(self, row: int, displacement: ndarray, velocity: ndarray) -> ndarray:
         """Increment of the modes of one of several recursions."""
         return self.displacement_factor[row] * displacement + self.velocity_factor[row] * velocity
 
-    def velocity(self, row: int, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
+    def velocity(self, row: int, displacement: ndarray, increment: ndarray) -> ndarray:
         """Velocity of the modes of one of several recursions."""
         return (increment - self.displacement_factor[row] * displacement) / self.velocity_factor[row]
 
 
-def increments(integrator: str, frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Increments:
+def increments(integrator: str, frequencies: ndarray, damping_ratio: Numbers, step: Numbers) -> Increments:
     """Increments of the modes of a recursion.
 
     With exact_modal the closed form taken a step back; with central differences from v_n = (u_{n+1} - u_{n-1})/(2h) and the

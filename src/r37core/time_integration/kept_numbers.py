@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 from numpy.fft import rfft  # NumPy imports it when it is used, which would be in each of a server's jobs
 
 from r37core.contact.laws import used_thickness, wear_at_the_casing
@@ -31,20 +32,20 @@ KEPT = LEADING_EDGE
 """Directions of the spectrum."""
 
 
-def whole(samples: np.ndarray, count: int, diverged: bool) -> np.ndarray:
+def whole(samples: ndarray, count: int, diverged: bool) -> ndarray:
     """Samples extended to the `count` asked for: NaN from where a run ended, and in place of the last one that diverged."""
     # which may be infinite
     return extended(samples[: len(samples) - diverged], count)
 
 
-def largest_of_each(revolutions: int, samples: np.ndarray) -> np.ndarray:
+def largest_of_each(revolutions: int, samples: ndarray) -> ndarray:
     """Largest magnitude in each revolution of `samples`, shape (samples, ...): shape (revolutions, ...); NaN stays."""
     # as `max` along an axis of its own, which takes seven times as long
     firsts = np.arange(revolutions) * (len(samples) // revolutions)
     return np.maximum(*(np.abs(ends.reduceat(samples, firsts)) for ends in (np.maximum, np.minimum)))
 
 
-def extended(values: np.ndarray, count: int) -> np.ndarray:
+def extended(values: ndarray, count: int) -> ndarray:
     """Values along the first axis and NaN after them, up to a `count` of rows."""
     if len(values) == count:
         return values
@@ -88,7 +89,7 @@ def snapshot_numbers(
     }
 
 
-def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: bool) -> tuple[np.ndarray, np.ndarray]:
+def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: bool) -> tuple[ndarray, ndarray]:
     """Largest stress (Pa) of each blade in each revolution with snapshots, NaN where it ended, and its node in the operator.
 
     Both by region, shape (regions, blades, revolutions); of regions that do not decide in those of the statistic. Blades with
@@ -124,7 +125,7 @@ def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: b
     return history, nodes
 
 
-def worst_places(run: FinishedRun, stress: StressOperators, history: np.ndarray, nodes: np.ndarray) -> dict[str, np.ndarray]:
+def worst_places(run: FinishedRun, stress: StressOperators, history: ndarray, nodes: ndarray) -> dict[str, ndarray]:
     """Chord, span and side by region of the largest stress of any revolution, of all blades; NaN if diverged.
 
     `history` and `nodes`: see stress_histories.
@@ -136,7 +137,7 @@ def worst_places(run: FinishedRun, stress: StressOperators, history: np.ndarray,
     return dict(zip(PLACE_OF_STRESS, places.T, strict=True))
 
 
-def casing_numbers(problem: Problem, record: SimulationRecord, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
+def casing_numbers(problem: Problem, record: SimulationRecord, revolutions: int, highest_order: int) -> dict[str, ndarray]:
     """Waves of the elastic casing in the statistic of a run of so many revolutions: see casing_waves."""
     ring, choice = problem.casing.ring, problem.choice
     assert ring is not None and record.casing is not None
@@ -146,7 +147,7 @@ def casing_numbers(problem: Problem, record: SimulationRecord, revolutions: int,
     return casing_waves(half, ring, problem.speed, choice.revolutions_in_statistic, highest_order)
 
 
-def append_rotation(coordinates: np.ndarray, model: ContactModel, speeds: float | np.ndarray) -> np.ndarray:
+def append_rotation(coordinates: ndarray, model: ContactModel, speeds: float | ndarray) -> ndarray:
     """Coordinates of the vibration, shape (instants, coordinates), and after them the amplitudes of rotation's shapes.
 
     `speeds` (rad/s): one of all, or that of each instant.
@@ -155,12 +156,12 @@ def append_rotation(coordinates: np.ndarray, model: ContactModel, speeds: float 
     return np.hstack([coordinates, np.broadcast_to(amplitudes, (len(coordinates), amplitudes.shape[-1]))])
 
 
-def in_directions(kind: str, displacement: np.ndarray) -> dict[str, np.ndarray]:
+def in_directions(kind: str, displacement: ndarray) -> dict[str, ndarray]:
     """An array for each of the DIRECTIONS, which are the last axis."""
     return {f"{kind}_{direction}": displacement[..., column] for column, direction in enumerate(DIRECTIONS)}
 
 
-def spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
+def spectrum(displacement: ndarray, revolutions: int, highest_order: int) -> dict[str, ndarray]:
     """Amplitude (m) of displacements, shape (KEPT, samples), at multiples of 1/revolutions of the engine order."""
     amplitude = amplitudes(displacement)
     count = min(highest_order * revolutions + 1, amplitude.shape[1])
@@ -168,14 +169,14 @@ def spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) -> 
     return {**dict(kept), "engine_order": np.arange(count) / revolutions}
 
 
-def amplitudes(values: np.ndarray) -> np.ndarray:
+def amplitudes(values: ndarray) -> ndarray:
     """Amplitudes of the Fourier series of real values, along the last axis; the first is the mean's size."""
     sizes = 2.0 * np.abs(rfft(values)) / values.shape[-1]
     sizes[..., 0] /= 2.0
     return sizes
 
 
-def wear_numbers(wear: np.ndarray, angles: int, lining: Lining, cut: np.ndarray) -> dict[str, Any]:
+def wear_numbers(wear: ndarray, angles: int, lining: Lining, cut: ndarray) -> dict[str, Any]:
     """Largest `wear` (m), shape (rings, bars), over the rings: in each of `angles` sectors, and its lobes.
 
     And the thickness of the `lining` that is used, and the share of the bars that are worn through to the casing behind it, in
@@ -196,7 +197,7 @@ def wear_numbers(wear: np.ndarray, angles: int, lining: Lining, cut: np.ndarray)
     }
 
 
-def energy_balance(work: float, loss: float, change: float, stiffness_work: float = 0.0) -> dict[str, np.ndarray]:
+def energy_balance(work: float, loss: float, change: float, stiffness_work: float = 0.0) -> dict[str, ndarray]:
     """Work of the contact forces, loss to damping, change of energy, and what does not close (all J).
 
     `stiffness_work`: what a changing speed brings to the vibration.
@@ -215,7 +216,7 @@ def melting_power(model: ContactModel, friction: Friction | None) -> float:
     return float(MELTING * model.tip_lengths.sum() * more)
 
 
-def limit_numbers(run: FinishedRun, totals: np.ndarray) -> dict[str, Any]:
+def limit_numbers(run: FinishedRun, totals: ndarray) -> dict[str, Any]:
     """Numbers that the model's limits are of (results.limits), from the `totals` of each blade, shape (blades,).
 
     `energy_residual_share`: of the largest of contact work, loss and energy change.
@@ -245,7 +246,7 @@ def _so_far(run: FinishedRun) -> dict[str, Any]:
     return {"friction_power": powers.max(), "friction_heat": known[-1], **most}
 
 
-def numbers_so_far(state: SimulationState, per_revolution: int, revolutions: int) -> dict[str, np.ndarray]:
+def numbers_so_far(state: SimulationState, per_revolution: int, revolutions: int) -> dict[str, ndarray]:
     """Force, heat and bounded steps of one blade from the start to the end of each of so many revolutions.
 
     NaN after the end. `per_revolution`: samples. Between two marks of the totals the heat is a straight line, all else what it
@@ -263,9 +264,7 @@ def numbers_so_far(state: SimulationState, per_revolution: int, revolutions: int
     return {name: extended(each, revolutions) for name, each in numbers.items()}
 
 
-def casing_waves(
-    samples: np.ndarray, ring: RingMotion, speed: float, revolutions: int, highest_order: int
-) -> dict[str, np.ndarray]:
+def casing_waves(samples: ndarray, ring: RingMotion, speed: float, revolutions: int, highest_order: int) -> dict[str, ndarray]:
     """Spectrum, level and energy of each of the casing's modes in the frame that does not turn.
 
     `samples` (m) of q_c, then q_s, of all modes at their antinodes, in the rotor's frame, shape (samples, 2 modes), over whole

@@ -11,6 +11,7 @@ from math import gcd
 from typing import NamedTuple
 
 import numpy as np
+from numpy import ndarray
 
 from .problem import Problem
 from .segments import own_increments
@@ -65,12 +66,12 @@ class PhaseSpace:
         self.frequencies = blade if ring is None else np.concatenate([blade, ring.frequencies])
         self._increments = own_increments(problem)
 
-    def coordinates(self, state: SimulationState) -> np.ndarray:
+    def coordinates(self, state: SimulationState) -> ndarray:
         """Coordinates of a state."""
         velocity = self._increments.velocity(0, state.displacement, state.increment)
         return np.concatenate([self.frequencies * state.displacement, velocity])
 
-    def put(self, coordinates: np.ndarray, state: SimulationState) -> None:
+    def put(self, coordinates: ndarray, state: SimulationState) -> None:
         """Give a state the displacement and increment of these coordinates."""
         displacement, velocity = np.split(coordinates, 2)
         state.displacement = displacement / self.frequencies
@@ -123,7 +124,7 @@ def kind_numbers(problem: Problem, state: SimulationState, *, diverged: bool) ->
     return motion.values
 
 
-def _size(coordinates: np.ndarray) -> float:
+def _size(coordinates: ndarray) -> float:
     """Size of a state, above 0."""
     return max(float(np.linalg.norm(coordinates)), np.finfo(float).tiny)
 
@@ -136,7 +137,7 @@ def _bring_back(twin: SimulationState, state: SimulationState, growth: float) ->
     twin.touched[...] = state.touched
 
 
-def _recurrence(states: np.ndarray, size: float) -> tuple[float, int]:
+def _recurrence(states: ndarray, size: float) -> tuple[float, int]:
     """Smallest distance of the last states from those some periods before, as a share of the size, and that many periods.
 
     Of several multiples of a period that a motion has, the smallest.

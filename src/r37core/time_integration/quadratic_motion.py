@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.rom.quadratic_terms import SHARE_OF_HEIGHT, QuadraticTerms, followed_modes, mode_pairs, pairings, products_of
 
@@ -31,24 +32,24 @@ class QuadraticMotion:
     terms: QuadraticTerms
 
     @cached_property
-    def pairs(self) -> tuple[np.ndarray, np.ndarray]:
+    def pairs(self) -> tuple[ndarray, ndarray]:
         """First and second mode of each product, shape (products,)."""
         return mode_pairs(len(self.terms.coordinates))
 
     @cached_property
-    def weights(self) -> np.ndarray:
+    def weights(self) -> ndarray:
         """How often each product is in a sum over all modes, shape (products,)."""
         first, second = self.pairs
         return np.where(first == second, 1.0, 2.0)
 
     @cached_property
-    def _derivatives(self) -> np.ndarray:
+    def _derivatives(self) -> ndarray:
         """Static derivatives of the lowest modes in the stepped modes, the followers among them, shape (products, modes)."""
         own = len(self.blade.frequencies) - self.blade.followers.shape[1]
         return np.hstack([self.blade.derivatives[:, :own], self.blade.followers])
 
     @cached_property
-    def rows(self) -> np.ndarray:
+    def rows(self) -> ndarray:
         """Q and, below it, G_ab of the stepped modes, shape (lowest modes + products, modes)."""
         followers = self.blade.followers.shape[1]
         own = len(self.blade.frequencies) - followers
@@ -58,13 +59,13 @@ class QuadraticMotion:
         return np.concatenate([amplitudes, pushes - 2.0 / 3.0 * pushes @ amplitudes.T @ amplitudes])
 
     @cached_property
-    def shapes(self) -> np.ndarray:
+    def shapes(self) -> ndarray:
         """Displacement in the modes at rest per product, shape (modes at rest, products)."""
         frequencies, modes = self.blade.static_modes
         static = self.blade.derivatives[:, self.blade.derivatives.shape[1] - len(frequencies) :]
         return 0.5 * modes @ (static.T * self.weights)
 
-    def follow(self, displacement: np.ndarray, velocity: np.ndarray) -> None:
+    def follow(self, displacement: ndarray, velocity: ndarray) -> None:
         """Put the followers where they are pulled to, in place, in a displacement and a velocity of the stepped modes."""
         followers = self.blade.followers
         first = len(displacement) - followers.shape[1]
@@ -74,24 +75,24 @@ class QuadraticMotion:
         velocity[first:] = 0.5 * (self.weights * (q[a] * rate[b] + rate[a] * q[b])) @ followers
 
     @cached_property
-    def cubic(self) -> np.ndarray:
+    def cubic(self) -> ndarray:
         """b/6 per mode of a pair and product, shape (products, products): its sum with the products adds to s_ab."""
         # of the stepped modes, which do not follow at once
         stepped = self._derivatives * self.blade.frequencies**2 @ self._derivatives.T
         return self._per_product(self._left + pairings(stepped, len(self.terms.coordinates)))
 
     @cached_property
-    def left(self) -> np.ndarray:
+    def left(self) -> ndarray:
         """The part of `cubic` that is left where all other modes follow at once, of Q."""
         return self._per_product(self._left)
 
     @cached_property
-    def _left(self) -> np.ndarray:
+    def _left(self) -> ndarray:
         logarithmic = self.blade.model.logarithmic_stiffness
         assert logarithmic is not None
         return self.terms.interpolated(logarithmic.abscissa(self.blade.grid.speed))[1]
 
-    def _per_product(self, cubic: np.ndarray) -> np.ndarray:
+    def _per_product(self, cubic: ndarray) -> ndarray:
         first, second = self.pairs
         return cubic[first[:, None], second[:, None], first, second] / 6.0 * self.weights
 
@@ -108,15 +109,15 @@ class QuadraticMotion:
         lowest = np.linalg.eigvalsh(self.weights[:, None] * self.left)[0]
         return -4.0 * self.bound / lowest if lowest < 0.0 else np.inf
 
-    def reduction(self, energy: np.ndarray) -> np.ndarray:
+    def reduction(self, energy: ndarray) -> ndarray:
         """Derivative by Q of the energy that counts in place of Q, less one, at values of Q (J)."""
         return np.where(energy < -self.bound, (self.bound / np.minimum(energy, -self.bound)) ** 2 - 1.0, 0.0)
 
-    def products(self, displacement: np.ndarray) -> np.ndarray:
+    def products(self, displacement: ndarray) -> ndarray:
         """Products q_a q_b, shape (..., products), of displacements u of the stepped modes, shape (..., modes)."""
         return products_of(displacement @ self.rows[: len(self.terms.coordinates)].T)
 
-    def energy(self, displacement: np.ndarray) -> np.ndarray:
+    def energy(self, displacement: ndarray) -> ndarray:
         """V (J), shape (...,), of displacements u of the stepped modes, shape (..., modes)."""
         products = self.products(displacement)
         stiffness = displacement @ self.rows[len(self.terms.coordinates) :].T
@@ -125,11 +126,11 @@ class QuadraticMotion:
         below = np.minimum(left, -self.bound)
         return whole + np.where(left < -self.bound, -2.0 * self.bound - self.bound**2 / below - left, 0.0)
 
-    def energy_left(self, products: np.ndarray) -> np.ndarray:
+    def energy_left(self, products: ndarray) -> ndarray:
         """Q (J), shape (...,), of products, shape (..., products)."""
         return 0.25 * (products * (products @ self.left.T)) @ self.weights
 
-    def force(self, displacement: np.ndarray) -> np.ndarray:
+    def force(self, displacement: ndarray) -> ndarray:
         """The force f (N) on the stepped modes at a displacement u of them, shape (modes,): minus the gradient of V."""
         count, weights, products = len(self.terms.coordinates), self.weights, self.products(displacement)
         lowest, stiffened = self.rows[:count], self.rows[count:]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 from numpy.fft import rfft
 
 from r37core.contact.scene import Rotor
@@ -25,14 +26,14 @@ class RotorRun(FinishedRun):
     """
 
     rotor: Rotor
-    late: np.ndarray
-    worn: np.ndarray
+    late: ndarray
+    worn: ndarray
 
-    def leader(self, statistic: Sequence[np.ndarray]) -> int:
+    def leader(self, statistic: Sequence[ndarray]) -> int:
         """Place of the blade with the largest motion in the statistic; of a diverged run, of the one that diverged first."""
         return int(_rms(statistic).argmax()) if self.first_diverged is None else self.first_diverged
 
-    def numbers_of_each(self, samples: Sequence[np.ndarray], history: np.ndarray | None) -> dict[str, Any]:
+    def numbers_of_each(self, samples: Sequence[ndarray], history: ndarray | None) -> dict[str, Any]:
         """Numbers of each blade, shape (blades,) first, of the motion of its leading edge, normal and tangential (KEPT).
 
         `samples` (m): displacement of each blade, shape (samples, 2, 3). `history` (Pa): largest stress, shape (blades,
@@ -68,13 +69,13 @@ class RotorRun(FinishedRun):
         return numbers
 
 
-def _rms(samples: Sequence[np.ndarray]) -> np.ndarray:
+def _rms(samples: Sequence[ndarray]) -> ndarray:
     """Rms (m) of the leading edge's motion of each blade, normal and tangential together, shape (blades,)."""
     motion = np.array([part[:, 0, KEPT] for part in samples])
     return np.sqrt(np.mean(np.linalg.norm(motion, axis=-1) ** 2, axis=1))
 
 
-def span_maxima(values: np.ndarray) -> tuple[np.ndarray, int]:
+def span_maxima(values: ndarray) -> tuple[ndarray, int]:
     """The largest of every span of revolutions along the last axis, in single precision, and how many revolutions a span has.
 
     There are at most MOST_GROWTH spans; the last one may be shorter.
@@ -84,7 +85,7 @@ def span_maxima(values: np.ndarray) -> tuple[np.ndarray, int]:
     return np.maximum.reduceat(values, np.arange(0, revolutions, span), axis=-1).astype(np.float32), span
 
 
-def nodal_diameters(displacement: np.ndarray, late: np.ndarray, rotor: Rotor) -> dict[str, np.ndarray]:
+def nodal_diameters(displacement: ndarray, late: ndarray, rotor: Rotor) -> dict[str, ndarray]:
     """Waves of the blades' motion: how it is made of those that run round the rotor.
 
     `displacement` (m), shape (blades, samples, directions), of whole revolutions; `late`, shape (blades,): see BladesRecord. A

@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.rom.rotation import BucklingError
 
@@ -17,10 +18,10 @@ class Segments(NamedTuple):
     `coupling`: of central differences alone. `increments`: None of a single speed.
     """
 
-    speeds: np.ndarray
+    speeds: ndarray
     recursion: Recursion
-    coupling: np.ndarray | None
-    clearance: np.ndarray
+    coupling: ndarray | None
+    clearance: ndarray
     increments: Increments | None
 
 
@@ -32,7 +33,7 @@ def own_segment(problem: Problem) -> Segments:
     return Segments(speeds, several, coupling, problem.casing.clearance[None], None)
 
 
-def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
+def segments_at(problem: Problem, speeds: ndarray) -> Segments:
     """Segments at other `speeds` (rad/s), (speeds,), in the modes of the problem's speed and with its steps per revolution.
 
     A mode's squared frequency is its stiffness at the speed, phi^T K(Omega) phi; the stiffness between modes is left out.
@@ -51,7 +52,7 @@ def own_increments(problem: Problem) -> Increments:
     return increments(problem.choice.integrator, *_motion_at(problem, np.array([problem.speed])))
 
 
-def _motion_at(problem: Problem, speeds: np.ndarray) -> tuple[np.ndarray, float | np.ndarray, np.ndarray]:
+def _motion_at(problem: Problem, speeds: ndarray) -> tuple[ndarray, float | ndarray, ndarray]:
     """Frequencies (rad/s) of all modes at each of the speeds, damping ratio, and steps (s)."""
     blade, ring = problem.blade, problem.casing.ring
     ratio = 1.0 + (speeds[:, None] ** 2 - problem.speed**2) * blade.stiffening

@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy import ndarray
 
 from .integration_choice import IntegrationChoice
 from .status import Outcome
@@ -65,7 +66,7 @@ def window_of(revolutions: int) -> int:
     return min(WINDOW, max(revolutions // 4, 1))
 
 
-def revolution_rms(motion: np.ndarray, per_revolution: int) -> np.ndarray:
+def revolution_rms(motion: ndarray, per_revolution: int) -> ndarray:
     """Rms of a motion in several directions together in each revolution, shape (revolutions,).
 
     `motion`, shape (samples, directions), with `per_revolution` samples in a revolution; NaN stays.
@@ -73,7 +74,7 @@ def revolution_rms(motion: np.ndarray, per_revolution: int) -> np.ndarray:
     return np.sqrt(np.einsum("ij,ij->i", motion, motion).reshape(-1, per_revolution).mean(axis=1))
 
 
-def has_settled(rms: np.ndarray, window: int, wear_growth: float, risen: float) -> bool:
+def has_settled(rms: ndarray, window: int, wear_growth: float, risen: float) -> bool:
     """True where the last window of a run brought no wear and no change of the motion, and no slow drift goes on.
 
     That is: no bar wore by more than NO_WEAR, and the rms of the last window differs from that of the window before by less
@@ -89,7 +90,7 @@ def has_settled(rms: np.ndarray, window: int, wear_growth: float, risen: float) 
     return bool(alike and (last < DECAYED * windows.max() or abs(remaining_drift(rms[math.ceil(risen) :], window)) <= DRIFT))
 
 
-def remaining_drift(values: np.ndarray, window: int) -> float:
+def remaining_drift(values: ndarray, window: int) -> float:
     """Relative change that the means of the last three windows lead to within WINDOWS_AHEAD.
 
     `values`, positive, shape (revolutions,). Two equal steps go on as they are, smaller ones shrink by the same ratio; of two
@@ -105,7 +106,7 @@ def remaining_drift(values: np.ndarray, window: int) -> float:
 
 
 def motion_at_end(
-    rms: np.ndarray, clearance: float, max_wear: float = 0.0, wear_growth: float = np.nan, contact_steps: float = np.nan
+    rms: ndarray, clearance: float, max_wear: float = 0.0, wear_growth: float = np.nan, contact_steps: float = np.nan
 ) -> MotionAtEnd:
     """State of the motion at the end of a run, by the `rms` (m) of each of its revolutions, shape (revolutions,).
 

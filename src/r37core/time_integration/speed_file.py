@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.io import atomic_write, readable
 from r37core.base.variable import Variable
@@ -20,7 +21,7 @@ RUN, STATUS, PARAMETERS = "run", "status", "parameters"
 five times as long, and Snakemake looks at the status of every run."""
 
 
-def sizes_of(run: Mapping[str, np.ndarray], arrays: Mapping[str, Variable] = ARRAYS) -> dict[str, int]:
+def sizes_of(run: Mapping[str, ndarray], arrays: Mapping[str, Variable] = ARRAYS) -> dict[str, int]:
     """Size of each dimension of a run's arrays.
 
     Raises ValueError for one that is not declared among `arrays`, and for one whose shape is not that of its dimensions.
@@ -37,10 +38,7 @@ def sizes_of(run: Mapping[str, np.ndarray], arrays: Mapping[str, Variable] = ARR
 
 
 def write_speed(
-    result: Mapping[str, np.ndarray],
-    file: Path | str,
-    parameters: Mapping[str, object],
-    arrays: Mapping[str, Variable] = ARRAYS,
+    result: Mapping[str, ndarray], file: Path | str, parameters: Mapping[str, object], arrays: Mapping[str, Variable] = ARRAYS
 ) -> None:
     """Write the arrays of one run, `status` among them, and, as JSON text under `parameters`, what made them.
 
@@ -57,7 +55,7 @@ def write_speed(
         np.savez(partial, allow_pickle=False, **{PARAMETERS: text, STATUS: status, RUN: run})
 
 
-def read_speed(file: Path | str, arrays: Mapping[str, Variable] = ARRAYS) -> dict[str, np.ndarray]:
+def read_speed(file: Path | str, arrays: Mapping[str, Variable] = ARRAYS) -> dict[str, ndarray]:
     """Status of a run, and all of `arrays` that its file has; InputFileError when it cannot be read, or for a wrong shape."""
     with readable(file), np.load(file) as stored:
         run = stored[RUN]

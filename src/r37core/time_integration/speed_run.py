@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.contact.casing import least_change
 from r37core.contact.scene import Scene
@@ -28,7 +29,7 @@ OF_RUNS = ("spectrum", "stress", "static_stress", "fatigue", "wear", "energy", "
 
 def run_speed(
     model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice, results: Sequence[str], **kept: Any
-) -> dict[str, np.ndarray]:
+) -> dict[str, ndarray]:
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
     Returned are arrays of speed_arrays.ARRAYS, by name: those of `results` and all others that blade and scene have.
@@ -52,7 +53,7 @@ def numbers_of_run(
     spectrum_highest_order: int,
     wear_angles: int,
     stress: StressOperators | None = None,
-) -> dict[str, np.ndarray]:
+) -> dict[str, ndarray]:
     """Numbers of a run that is done: see run_speed.
 
     `spectrum_highest_order`: of the kept spectrum; `wear_angles`: of the kept wear; `stress`: operators by region.
@@ -121,7 +122,7 @@ def numbers_of_run(
     return {name: np.asarray(value) for name, value in numbers.items()}
 
 
-def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str, Any]:
+def ending_numbers(run: FinishedRun, samples: Sequence[ndarray]) -> dict[str, Any]:
     """How a run ended, from the displacement `samples` (m) of each blade, shape (samples, 2, 3).
 
     `motion_at_end`: the worst MotionAtEnd of all blades; `settled_revolution`: after which a run ended as it had settled, else
@@ -145,7 +146,7 @@ def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str,
 
 
 def _stress(
-    run: FinishedRun, stress: StressOperators | None, history: np.ndarray | None, results: Sequence[str]
+    run: FinishedRun, stress: StressOperators | None, history: ndarray | None, results: Sequence[str]
 ) -> dict[str, Any]:
     """Numbers of the blade with the largest stress (snapshot_numbers), the largest of the `history`, and fatigue."""
     shown = run.first_diverged or 0

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy import ndarray
 from numpy.typing import ArrayLike
 
 TOTALS = np.dtype(
@@ -35,16 +36,16 @@ class SimulationState:
     to there, every MARKED revolutions and where a part of the run ends.
     """
 
-    displacement: np.ndarray
-    increment: np.ndarray
-    wear: np.ndarray
-    touched: np.ndarray
-    contact_force: np.ndarray
-    penetration: np.ndarray
-    bar_position: np.ndarray
+    displacement: ndarray
+    increment: ndarray
+    wear: ndarray
+    touched: ndarray
+    contact_force: ndarray
+    penetration: ndarray
+    bar_position: ndarray
     samples: int = 0
-    totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
-    marks: list[tuple[int, np.ndarray]] = field(default_factory=list)
+    totals: ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
+    marks: list[tuple[int, ndarray]] = field(default_factory=list)
 
 
 class Schedule:
@@ -70,7 +71,7 @@ class SimulationRecord:
     modes), of an elastic casing: see ContactOperators. What an engine fills has them among the samples.
     """
 
-    samples: np.ndarray
-    snapshots: np.ndarray
+    samples: ndarray
+    snapshots: ndarray
     diverged: bool = False
-    casing: np.ndarray | None = None
+    casing: ndarray | None = None

@@ -10,6 +10,7 @@ Brogliato, Eur. J. Mech. A 18 (1999) 653-677); so do static modes that are too f
 from collections.abc import Callable
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.machine_code.alignment import LANES, padded
 
@@ -36,7 +37,7 @@ class TooFewStaticModesError(ValueError):
     """A model whose contact forces are not unique, whichever modes are static."""
 
 
-def residual_flexibility(frequencies: np.ndarray, rows: np.ndarray) -> np.ndarray:
+def residual_flexibility(frequencies: ndarray, rows: ndarray) -> ndarray:
     """Normal displacement (m/N) of the last node per force on the first, along each direction, by static modes.
 
     Sum of phi phi^T/omega^2 over the modes of `frequencies` (rad/s) (Craig and Kurdila, Fundamentals of Structural Dynamics,
@@ -46,7 +47,7 @@ def residual_flexibility(frequencies: np.ndarray, rows: np.ndarray) -> np.ndarra
     return static @ static[0].T
 
 
-def definiteness(flexibility: np.ndarray, coefficient: float) -> float:
+def definiteness(flexibility: ndarray, coefficient: float) -> float:
     """Smallest eigenvalue of the symmetric part of G, scaled to a unit normal flexibility of each node.
 
     The least over directions of friction that all nodes share. `flexibility` as of residual_flexibility; `coefficient` of
@@ -59,7 +60,7 @@ def definiteness(flexibility: np.ndarray, coefficient: float) -> float:
     return float(np.linalg.eigvalsh(0.5 * (opening + opening.swapaxes(1, 2)))[:, 0].min())
 
 
-def _opening(flexibility: np.ndarray, coefficient: float) -> np.ndarray:
+def _opening(flexibility: ndarray, coefficient: float) -> ndarray:
     """Opening of the last node's gap per normal force on the one before, for each of _ANGLES."""
     normal, tangential, meridional = flexibility
     cosine, sine = (coefficient * function(_ANGLES)[:, None, None] for function in (np.cos, np.sin))
@@ -67,8 +68,8 @@ def _opening(flexibility: np.ndarray, coefficient: float) -> np.ndarray:
 
 
 def stepped_modes(
-    frequencies: np.ndarray,
-    rows: np.ndarray,
+    frequencies: ndarray,
+    rows: ndarray,
     coefficient: float,
     step: float,
     static_above: float,
@@ -84,7 +85,7 @@ def stepped_modes(
     """
     modes = len(frequencies)
 
-    def static_flexibility(stepped: int) -> np.ndarray:
+    def static_flexibility(stepped: int) -> ndarray:
         return residual_flexibility(frequencies[stepped:], rows[..., stepped:])
 
     def settles_soon(stepped: int) -> bool:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Scene
@@ -43,7 +44,7 @@ class SteppedBlade:
     cone_angle: float
 
     @cached_property
-    def frequencies(self) -> np.ndarray:
+    def frequencies(self) -> ndarray:
         """Frequencies of the modes that are stepped (rad/s), ascending; then those of followers."""
         own = self._modes_of_speed[0][: self._stepped]
         followers = self.followers.shape[1]
@@ -51,14 +52,14 @@ class SteppedBlade:
         return np.append(own, np.full(followers, fastest)) if followers else own
 
     @cached_property
-    def modes(self) -> np.ndarray:
+    def modes(self) -> ndarray:
         """Modes of this speed that are stepped, shape (modes at rest, modes); followers have no part of those at rest."""
         own = np.ascontiguousarray(self._modes_of_speed[1][:, : self._stepped])
         followers = self.followers.shape[1]
         return np.pad(own, ((0, 0), (0, followers))) if followers else own
 
     @cached_property
-    def derivatives(self) -> np.ndarray:
+    def derivatives(self) -> ndarray:
         """Static derivatives of the lowest modes in all modes of the speed, shape (products, modes); none of a linear model."""
         terms, logarithmic = self.model.quadratic, self.model.logarithmic_stiffness
         if terms is None or logarithmic is None:
@@ -66,7 +67,7 @@ class SteppedBlade:
         return terms.interpolated(logarithmic.abscissa(self.grid.speed))[0] @ self._modes_of_speed[1]
 
     @cached_property
-    def followers(self) -> np.ndarray:
+    def followers(self) -> ndarray:
         """Inertia of the static modes that follow products of second order, shape (products, followers).
 
         A follower is a mode without displacement that is pulled to where the static modes are, and has their mass: static
@@ -96,7 +97,7 @@ class SteppedBlade:
         return _stepped_at_rest(self.model, self.scene, self.grid.choice, self.cone_angle, below)
 
     @cached_property
-    def _modes_of_speed(self) -> tuple[np.ndarray, np.ndarray]:
+    def _modes_of_speed(self) -> tuple[ndarray, ndarray]:
         return self.model.modes_at(self.grid.speed)
 
     @cached_property
@@ -106,13 +107,13 @@ class SteppedBlade:
         return recursion(self.grid.choice.integrator, self.frequencies, ratios, self.grid.time_step)
 
     @cached_property
-    def static_modes(self) -> tuple[np.ndarray, np.ndarray]:
+    def static_modes(self) -> tuple[ndarray, ndarray]:
         """Frequencies (rad/s) and shapes of the modes that are not stepped."""
         frequencies, modes = self._modes_of_speed
         return frequencies[self._stepped :], modes[:, self._stepped :]
 
     @cached_property
-    def stiffening(self) -> np.ndarray:
+    def stiffening(self) -> ndarray:
         """Relative change of the modes' squared frequencies per squared speed (s2), shape (modes,)."""
         if self.model.logarithmic_stiffness is not None:
             # followers keep theirs
