@@ -10,9 +10,8 @@ from box_mesh import box_mesh, inner_places
 from box_operator import box_operator
 
 from r37core.fem.abaqus_deck import write_abaqus
-from r37core.fem.elements import ELEMENTS
+from r37core.fem.elements import ELEMENTS, wedge_rule
 from r37core.fem.matrices import assemble, centrifugal_load
-from r37core.fem.quadrature import wedge_rule
 from r37core.fem.solver import lowest_modes
 from r37core.fem.stress import recovered_stress, stress_numbers
 from r37core.rom.rotation import rotation_amplitudes

@@ -9,10 +9,9 @@ import xarray as xr
 from test_interactions import CHOICE, campbell
 
 from r37core.results.columns import MOST_REVOLUTIONS, OVER_SCENES, ROBUSTNESS, names
-from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.danger import danger_of, moved_by_error, ranges_of
 from r37core.results.exceedance import DEVIATIONS, Exceedance, SpeedRange, exceedance_of, joined, length_of, ranges_above
-from r37core.results.interactions import find_interactions
+from r37core.results.interactions import find_interactions, rows_above_yield
 from r37core.results.ranking import chance_to_be_better, ranking_table, ranks_of, robustness
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus

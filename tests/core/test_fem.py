@@ -13,11 +13,10 @@ import scipy.sparse as sp
 from box_mesh import box_mesh
 
 from r37core.fem.assembly import NodePattern, assemble_stiffness, block_matrix
-from r37core.fem.elements import ELEMENTS
+from r37core.fem.elements import ELEMENTS, box_rule, tetrahedron_rule, wedge_rule
 from r37core.fem.large_displacement import LargeDisplacement
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble, centrifugal_load
-from r37core.fem.quadrature import box_rule, tetrahedron_rule, wedge_rule
 from r37core.fem.solver import factorise, lowest_modes
 from r37core.fem.stress import stress_at
 

@@ -14,7 +14,7 @@ from r37core.config.remarks import remarks_on_laws
 from r37core.product.extensions import read_settings
 from r37core.rom.contact_weights import tip_lengths
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
-from r37core.time_integration.lining_at_tip import lining_at_tip
+from r37core.time_integration.kept_numbers import lining_at_tip
 from r37core.time_integration.simulate import Simulation
 
 LINING = Lining(5e-3, 20e9, 5e9, 1.5, contact_length=2e-4)

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from r37core.base.io import write_text
 from r37core.base.units import SUFFIXES
-from r37core.config.speed_section import UNITS
+from r37core.config.config_file import UNITS
 from r37core.product.schemas import MODELS
 from r37core.product.targets import COLUMNS as DECLARED
 from r37core.results.columns import CHANCE, ENDS, IN_REGION, LENGTHS, OPERATING, Column, names

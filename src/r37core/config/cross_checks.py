@@ -19,10 +19,10 @@ from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEP
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_blades import NO_ROTOR
 
+from .config_file import key_of_speeds
 from .document import ConfigRefusals
 from .elastic_casings import elastic_casings_have_their_waves
 from .settings import RunLength, Settings, blades_of_matrices, fastest_of, length_of_run, slowest_speeds
-from .speed_section import key_of_speeds
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 """Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""

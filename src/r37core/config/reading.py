@@ -9,14 +9,13 @@ from r37core.base.varied_number import BLADE, SCENE
 
 from .blade_kind import blade_kinds
 from .blades import blades_model
-from .config_file import Config
+from .config_file import UNITS, Config
 from .document import ConfigError, ConfigRefusals, Document, command_line_document, completed, entries_of, read_document
 from .families import Designs, expanded_families
 from .fidelity import Level, Levels
 from .named_files import file_keys, located_files, located_in_configuration
 from .scenes import Scenes
 from .settings import Settings
-from .speed_section import UNITS
 
 CONFIG_FILE = "config/config.yaml"
 

@@ -21,14 +21,13 @@ from r37core.time_integration.integration_choice import SECONDS_PER_STEP, Integr
 
 from .blade_sections import chosen_regions
 from .blades import BladeSettings, blade_settings, chain_of_blades, link_with
-from .config_file import Config, StructureSection
+from .config_file import UNITS, Config, SpeedRule, StructureSection, key_of_speeds
 from .declaring import si, si_form
 from .document import ConfigRefusals, Document
 from .families import AnyEntry, Designs
 from .fidelity import Level
 from .scenes import SceneEntry
 from .section import ExtensionSection, Section, plain
-from .speed_section import UNITS, SpeedRule, key_of_speeds
 
 T = TypeVar("T")
 

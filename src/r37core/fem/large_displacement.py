@@ -17,7 +17,7 @@ from numpy import ndarray
 
 from .assembly import Blocks, NodePattern, nodal_sums, stiffness_points
 from .material import Material
-from .strain import displacement_gradient, green_strain, second_order_strain
+from .stress import displacement_gradient, green_strain, second_order_strain
 
 
 @dataclass(frozen=True, eq=False)

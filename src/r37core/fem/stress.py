@@ -1,4 +1,7 @@
-"""Elastic stress from nodal displacements, by strains of first and of second order."""
+"""Elastic stress from nodal displacements, by strains of first and of second order.
+
+Strains follow from displacement gradients H_ij = du_i/dX_j, all of shape (..., 3, 3).
+"""
 
 from collections.abc import Callable
 
@@ -8,7 +11,31 @@ from numpy import ndarray
 from .assembly import Blocks, typed_blocks
 from .elements import ELEMENTS
 from .material import Material
-from .strain import displacement_gradient, linear_strain, second_order_strain
+
+
+def displacement_gradient(gradients: ndarray, displacement: ndarray) -> ndarray:
+    """H at the points of some elements, shape (elements, points, 3, 3).
+
+    `gradients` of the shape functions (1/m), shape (elements, points, n, 3); `displacement` of each element's nodes (m), shape
+    (elements, n, 3).
+    """
+    return displacement.swapaxes(1, 2)[:, None] @ gradients
+
+
+def linear_strain(gradient: ndarray) -> ndarray:
+    """Strain of small displacements, (H + H^T)/2."""
+    return 0.5 * (gradient + gradient.swapaxes(-1, -2))
+
+
+def second_order_strain(first: ndarray, second: ndarray) -> ndarray:
+    """(A^T B + B^T A)/2 of two gradients: half of it, with A = B, is what Green's strain has beyond the linear one."""
+    return linear_strain(first.swapaxes(-1, -2) @ second)
+
+
+def green_strain(gradient: ndarray) -> ndarray:
+    """Strain of large displacements, (H + H^T + H^T H)/2."""
+    return linear_strain(gradient) + 0.5 * gradient.swapaxes(-1, -2) @ gradient
+
 
 COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
 """Order of the components of a stress: xx yy zz xy yz zx."""
@@ -67,7 +94,7 @@ def recovered_stress(
 def second_order_stress(
     blocks: Blocks, points: ndarray, first: ndarray, second: ndarray, material: Material, integration_points: bool
 ) -> ndarray:
-    """Stress by the strain of second order of two displacements, field by field, as recovered_stress has it: see strain.py."""
+    """Stress by the strain of second order of two displacements, field by field, as recovered_stress has it."""
 
     def stress(name: str, gradients: ndarray, field: int) -> ndarray:
         pair = (displacement_gradient(gradients, each[blocks[name], :, field]) for each in (first, second))

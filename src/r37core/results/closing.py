@@ -42,7 +42,7 @@ def interaction_title(mode: object, engine_order: Any) -> str:
 def lining_texts(runs: Mapping[tuple[str, str], Mapping[str, Any]]) -> list[str]:
     """A line for each scene: what its lining resists with at the tip, and what the tips themselves do.
 
-    `runs`: blade and scene -> numbers of time_integration.lining_at_tip.
+    `runs`: blade and scene -> numbers of time_integration.kept_numbers.
     """
     lines = []
     for scene in dict.fromkeys(scene for _, scene in runs):

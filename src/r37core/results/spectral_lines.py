@@ -9,8 +9,7 @@ from xarray import DataArray, Dataset
 
 from r37core.base.peaks import prominent_peaks
 
-from .campbell import crossing_speed
-from .disc_campbell import frequency_at_order
+from .campbell import crossing_speed, frequency_at_order
 from .interaction_choice import InteractionChoice
 
 STRONGEST, STRONG = 0.25, 0.1

@@ -6,19 +6,20 @@ import numpy as np
 from numpy import ndarray
 from numpy.fft import rfft  # NumPy imports it when it is used, which would be in each of a server's jobs
 
-from r37core.contact.laws import used_thickness, wear_at_the_casing
+from r37core.contact.casing import casing_axes
+from r37core.contact.laws import lines_of_bar, used_thickness, wear_at_the_casing
 from r37core.contact.ring import RingMotion
-from r37core.contact.scene import HEAT_SHARE, Friction, Lining
+from r37core.contact.scene import HEAT_SHARE, Friction, Lining, Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.stress.operator import StressOperators, judged_operator
-from r37core.stress.revolutions import largest_of_revolutions
+from r37core.stress.operator import StressOperator, StressOperators, judged_operator
+from r37core.stress.revolutions import largest_cycles, largest_of_revolutions, stress_cycles
 
 from .finished_run import FinishedRun
 from .integration_choice import HEATED
 from .problem import Problem
 from .simulate import DIRECTIONS, LEADING_EDGE
-from .speed_arrays import PLACE_OF_STRESS, SPECTRUM
+from .speed_arrays import OF_LINING, PLACE_OF_STRESS, SPECTRUM
 from .state import TOTALS, SimulationRecord, SimulationState
 from .status import RunStatus
 
@@ -300,3 +301,62 @@ def casing_waves(samples: ndarray, ring: RingMotion, speed: float, revolutions: 
         "casing_rms_backward": np.sqrt(backward),
         "casing_energy": energy,
     }
+
+
+def fatigue_numbers(run: FinishedRun, stress: StressOperators, shown: int) -> dict[str, ndarray]:
+    """Alternating stress (Pa) of all revolutions, about the mean of those in the statistic; rotation is always in the mean.
+
+    `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, in the region that
+    decides, the former the largest of all revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), region by region, and
+    `cycle_counts`, shape (regions, revolutions): those of all blades, see largest_cycles. A diverged run has NaN and no pairs.
+    """
+    judged = judged_operator(stress)
+    if run.first_diverged is not None:
+        alternating_stress = mean_stress = np.full(judged.operator.shape[1], np.nan, dtype=np.float32)
+        nothing = np.empty(0, dtype=np.float32)
+        pairs = len(stress) * [(nothing, nothing, np.empty(0, dtype=np.int32))]
+    else:
+        pairs = []
+        motions = [(problem, part.snapshots) for problem, part in zip(run.problems, run.records, strict=True)]
+        for operator in stress.values():
+            blades = [_cycles(*motion, operator) for motion in motions]
+            if operator is judged:
+                alternating_stress, mean_stress = blades[shown][0].max(axis=0), blades[shown][1]
+            alternating, mean = (np.concatenate(parts, axis=-1) for parts in zip(*blades, strict=True))
+            pairs.append(largest_cycles(alternating, mean))
+    every_alternating, every_mean, counts = zip(*pairs, strict=True)
+    return {
+        "alternating_stress": alternating_stress,
+        "mean_stress": mean_stress,
+        "cycle_alternating": np.concatenate(every_alternating),
+        "cycle_mean": np.concatenate(every_mean),
+        "cycle_counts": np.stack(counts),
+    }
+
+
+def _cycles(problem: Problem, snapshots: ndarray, stress: StressOperator) -> tuple[ndarray, ndarray]:
+    """Stress of one blade in all revolutions with snapshots, of which the last ones are those of the statistic."""
+    choice, model = problem.choice, problem.model
+    shapes = model.to_reduced @ problem.contact.state_shapes
+    rotation = rotation_amplitudes(model.rotation_stiffening, problem.speed)
+    return stress_cycles(stress, snapshots, shapes, rotation, choice.snapshots_per_revolution, choice.revolutions_in_statistic)
+
+
+def lining_at_tip(model: ContactModel, scene: Scene) -> dict[str, float]:
+    """Numbers of OF_LINING of a blade's `model` in a lined `scene`; empty without a lining.
+
+    `lining_elastic_stiffness` (N/m): E A/e of the lining under all contact nodes, with its modulus E, thickness e and the
+    pressed area A; `lining_plastic_stiffness` (N/m): the slope while it wears, that times K/(E + K). `tip_stiffness` (N/m): of
+    the blade at rest under a normal force on its tip, spread evenly along it, against the mean displacement there.
+    `lined_tip_share`: width of the lining over the length of tip, both along the casing's meridian.
+    """
+    lining, lengths = scene.lining, model.tip_lengths
+    if lining is None:
+        return {}
+    areas = lining.pressed_areas(lengths, model.tip_radius)
+    elastic, _, plastic = lines_of_bar(lining.elastic_modulus, areas.sum(), lining)
+    normal = casing_axes(model.displacement_operator, scene.casing.angle(model.tip_cone_angle))[0]
+    mean_rows = lengths / lengths.sum() @ normal
+    width = areas.sum() / (lining.arc(model.tip_radius) if lining.published else lining.contact_length)
+    values = (elastic, plastic, 1.0 / np.sum(mean_rows**2 / model.squared_frequencies), width / lengths.sum())
+    return dict(zip(OF_LINING, values, strict=True))

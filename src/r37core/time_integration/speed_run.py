@@ -14,10 +14,8 @@ from r37core.stress.operator import StressOperators, operators_at
 
 from . import kept_numbers
 from .carrying import CarriedMotion
-from .fatigue_numbers import fatigue_numbers
 from .finished_run import FinishedRun
 from .integration_choice import IntegrationChoice
-from .lining_at_tip import lining_at_tip
 from .motion_kind import kind_numbers
 from .rotor_simulation import RotorSimulation
 from .settling import motion_at_end, revolution_rms
@@ -72,7 +70,7 @@ def numbers_of_run(
     maxima = [kept_numbers.extended(kept_numbers.largest_of_each(revolutions, part), choice.revolutions) for part in samples]
     numbers = kept_numbers.status_numbers(problem, None if ended is None else len(run.records[ended].samples) / per_revolution)
     reached = np.max(maxima, axis=0)
-    numbers |= lining_at_tip(model, scene)
+    numbers |= kept_numbers.lining_at_tip(model, scene)
     numbers |= {
         **kept_numbers.in_directions("rms", np.max([np.sqrt(np.mean(part**2, axis=0)) for part in statistic], axis=0)),
         **kept_numbers.in_directions("peak", np.max([part[first:revolutions].max(axis=0) for part in maxima], axis=0)),
@@ -157,5 +155,5 @@ def _stress(
     if stress is None or history is None:
         return numbers
     if "fatigue" in results:
-        numbers |= fatigue_numbers(run, stress, shown)
+        numbers |= kept_numbers.fatigue_numbers(run, stress, shown)
     return numbers | {"revolution_von_mises": history.max(axis=1)}

@@ -6,6 +6,7 @@ from pydantic import Field
 
 from r37core.config import si_fields
 from r37core.config.blade_sections import Degrees, GaugeEntry
+from r37core.config.config_file import word_or_speeds
 from r37core.config.section import (
     AllOrNames,
     EachOnce,
@@ -19,7 +20,6 @@ from r37core.config.section import (
     option,
     refused,
 )
-from r37core.config.speed_section import word_or_speeds
 
 SignalSpeeds: Any = word_or_speeds("interactions")
 
