@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
+from numpy import ndarray
 
 _GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
-def _sine_over(scale: float, angle: np.ndarray) -> np.ndarray:
+def _sine_over(scale: float, angle: ndarray) -> ndarray:
     """sin(scale * angle) / scale, finite when scale goes to zero."""
     return angle * np.sinc(scale * angle / np.pi)
 

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 import scipy
+from numpy import ndarray
 
 from .cone import Cone, ConstantRatePath
 
@@ -270,7 +271,7 @@ class Profile:
         return float(np.arctan2(rise, p.outlet_axial))
 
 
-def area_and_centroid(x: np.ndarray, y: np.ndarray) -> tuple[float, float, float]:
+def area_and_centroid(x: ndarray, y: ndarray) -> tuple[float, float, float]:
     """Signed area (positive counter-clockwise) and centre of area of the closed polygon with corners (x, y).
 
     Shoelace formula, about the mean corner to keep the digits of a small polygon far from the origin.

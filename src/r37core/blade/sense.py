@@ -9,6 +9,7 @@ turbine.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy import ndarray
 
 from .profile import BladeShapeError, ProfileParameters
 
@@ -37,7 +38,7 @@ class TipSense:
         return None if forward is None else forward == pressure_forward
 
 
-def sense_of_line(points: np.ndarray) -> TipSense:
+def sense_of_line(points: ndarray) -> TipSense:
     """Sense of the line half-way between the sides: `points`, shape (n, 3), from leading to trailing edge in the blade's frame.
 
     The camber is that of the circular arc with the line's mean height over the chord.

@@ -12,6 +12,7 @@ from typing import Self
 import numpy as np
 import scipy.sparse as sp
 from numpy import ndarray
+from scipy.sparse import csr_array
 
 from .elements import ELEMENTS, Element
 from .material import Material
@@ -119,7 +120,7 @@ def mesh_volume(blocks: Blocks, points: ndarray) -> float:
     return sum(float(np.sum(determinant * weights)) for *_, determinant, weights in mass_points(blocks, points))
 
 
-def block_matrix(pattern_indptr: ndarray, pattern_indices: ndarray, blocks: ndarray) -> sp.csr_array:
+def block_matrix(pattern_indptr: ndarray, pattern_indices: ndarray, blocks: ndarray) -> csr_array:
     """Sparse matrix over all degrees of freedom (3 per node, x y z) from 3 x 3 blocks, shape (pairs, 3, 3)."""
     size = 3 * (len(pattern_indptr) - 1)
-    return sp.csr_array(sp.bsr_array((blocks, pattern_indices, pattern_indptr), shape=(size, size)))
+    return csr_array(sp.bsr_array((blocks, pattern_indices, pattern_indptr), shape=(size, size)))

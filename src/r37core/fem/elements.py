@@ -18,7 +18,7 @@ from itertools import permutations, product
 import numpy as np
 from numpy import ndarray
 
-Rule = tuple[np.ndarray, np.ndarray]
+Rule = tuple[ndarray, ndarray]
 
 _TRIANGLE_ORBITS: dict[int, tuple[tuple[float, float], ...]] = {
     1: ((1.0 / 3.0, 0.5),),

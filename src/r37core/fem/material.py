@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated, Self
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.declared import Key
 
@@ -42,7 +43,7 @@ class Material:
         shear = self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
         return 2.0 * shear * self.poissons_ratio / (1.0 - 2.0 * self.poissons_ratio), shear
 
-    def stress(self, strain: np.ndarray) -> np.ndarray:
+    def stress(self, strain: ndarray) -> ndarray:
         """Stress (Pa) of a strain, both of shape (..., 3, 3): Hooke's law."""
         lame, shear = self.lame_constants
         return 2.0 * shear * strain + lame * np.trace(strain, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)

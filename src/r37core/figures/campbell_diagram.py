@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
+from numpy import ndarray
 from xarray import Dataset
 
 from r37core.base.plain import from_plain
@@ -73,7 +74,7 @@ def _draw_casing(axes: Axes, campbell: Dataset, casing: ElasticCasing, whose: st
                 axes.plot(*crossing, "D", color=colour, markersize=2.5, markerfacecolor="white", zorder=4, alpha=alpha)
 
 
-def draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float, letters: float = 6) -> None:
+def draw_engine_orders(axes: Axes, orders: ndarray, speed: ndarray, highest: float, letters: float = 6) -> None:
     """Lines, with their numbers where they leave the panel: beside it at the right, within it at the top."""
     beside: dict[str, Any] = {"xytext": (2, 0), "ha": "left", "va": "center"}
     white = {"facecolor": "white", "linewidth": 0, "pad": 0.6}

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from pandas import DataFrame
 from xarray import Dataset
 
 from r37core.results.columns import LEFT_BY, LENGTHS, names
@@ -95,7 +96,7 @@ def draw_comparison(
     return figure
 
 
-def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> Figure:
+def draw_ranking(ranking: DataFrame, scenes: Sequence[str] | None = None) -> Figure:
     """Bars of dangerous and unknown speeds with a mark of sustained ones, a panel per scene with its blades by their rank.
 
     Before each name stand the places that its blade may have. `scenes`: those that are drawn, or all. Of many blades the first
@@ -126,7 +127,7 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     return figure
 
 
-def _draw_bars(axes: Axes, rows: pd.DataFrame, *, named: bool) -> None:
+def _draw_bars(axes: Axes, rows: DataFrame, *, named: bool) -> None:
     """Bars of one scene, the best above; with `named` contacts under the names of the blades."""
     positions = np.arange(float(len(rows)))
     axes.barh(positions, rows[_DANGEROUS], 0.7, color="C0", label="dangerous: yield is passed inside the model")

@@ -20,6 +20,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
+from numpy import ndarray
 from xarray import Dataset
 
 from r37core.base.io import atomic_write
@@ -171,13 +172,13 @@ def legend_below(figure: Any, axes: Iterable[Axes], columns: int, first: Mapping
         figure.legend(list(entries.values()), list(entries), loc="outside lower center", ncols=columns, **look)
 
 
-def mark_diverged(axes: Axes, places: np.ndarray, colour: str = "red") -> None:
+def mark_diverged(axes: Axes, places: ndarray, colour: str = "red") -> None:
     """Crosses at the upper edge, worse than any number, at the places on the x axis where a run diverged."""
     if len(places):
         mark_above(axes, places, "x", color=colour, label="diverged", zorder=4)
 
 
-def mark_above(axes: Axes, places: np.ndarray, marker: str, **look: Any) -> None:
+def mark_above(axes: Axes, places: ndarray, marker: str, **look: Any) -> None:
     """Markers at the upper edge, at the places on the x axis."""
     axes.plot(places, np.full(len(places), 0.97), marker, transform=axes.get_xaxis_transform(), **look)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import gmsh
 import numpy as np
+from numpy import ndarray
 
 from r37core.blade.blade_map import BladeMap
 
@@ -118,7 +119,7 @@ def _size_for(nodes: int, layers: int, tip_elements: int, chord_length: float, s
     return float(best[1])
 
 
-def _write_msh(mesh: BladeMesh, tags: np.ndarray, volume: int, file: Path) -> None:
+def _write_msh(mesh: BladeMesh, tags: ndarray, volume: int, file: Path) -> None:
     """Write the mapped mesh; physical groups: the volume `blade`, and faces or curves for the node sets."""
     for tag, point in zip(tags.tolist(), mesh.points.tolist(), strict=True):
         gmsh.model.mesh.setNode(tag, point, [])
@@ -134,7 +135,7 @@ def _write_msh(mesh: BladeMesh, tags: np.ndarray, volume: int, file: Path) -> No
     gmsh.write(str(file))
 
 
-def _entity_of(dimension: int, node_tags: np.ndarray) -> int:
+def _entity_of(dimension: int, node_tags: ndarray) -> int:
     """The gmsh entity of that dimension whose mesh has exactly these nodes."""
     wanted = set(node_tags.tolist())
     for _, entity in gmsh.model.getEntities(dimension):

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pyvista
+from numpy import ndarray
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from r37core.base.io import atomic_write, readable
@@ -38,7 +39,7 @@ def save_grid(grid: pyvista.UnstructuredGrid, file: Path) -> None:
     file.write_text(writer.GetOutputString(), encoding="ascii")
 
 
-def write_vtu(mesh: BladeMesh, file: Path | str, scaled_jacobian: np.ndarray) -> None:
+def write_vtu(mesh: BladeMesh, file: Path | str, scaled_jacobian: ndarray) -> None:
     """Write the mesh with each node's parameters and normal, its node sets as 0/1 marks, and each element's quality.
 
     `scaled_jacobian`: shape (elements,); its minimum and 1% quantile go into the field data.

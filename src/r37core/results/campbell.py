@@ -238,7 +238,7 @@ def campbell_dataset(
     highest_engine_order: int,
     largest_tangential_displacement: float,
     tip_line: str,
-) -> xr.Dataset:
+) -> Dataset:
     """Frequencies at ascending `speeds` (rad/s) from 0, crossings with engine orders, dynamic clearance at rest.
 
     The displacement in m; `tip_line` carries the leading-edge node of the dynamic clearance.
@@ -292,7 +292,7 @@ def _crossings(model: ReducedModel, disc: Families, speeds: ndarray, orders: nda
     )
 
 
-def gather_blades(blades: Sequence[str], files: Iterable[Path | str]) -> xr.Dataset:
+def gather_blades(blades: Sequence[str], files: Iterable[Path | str]) -> Dataset:
     """One dataset with the dimension `blade` from one file per blade; the files' coordinates must agree.
 
     Nodal diameters are those of all discs; what a blade lacks is NaN.

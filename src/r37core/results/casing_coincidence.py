@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 import scipy
+from numpy import ndarray
 from pandas import DataFrame
 from xarray import DataArray, Dataset
 
@@ -22,7 +23,7 @@ WAVES = {"forward": -1.0, "backward": 1.0}
 COLUMNS = ("scene", "blade", "mode", "nodal_diameter", "wave", "speed_rad_s", "frequency_hz", "simulated")
 
 
-def seen_from_rotor(mode: RingMode, wave: str, speeds: np.ndarray) -> np.ndarray:
+def seen_from_rotor(mode: RingMode, wave: str, speeds: ndarray) -> ndarray:
     """Frequency (Hz) of one of WAVES at `speeds` (rad/s), negative where the rotor overtakes the wave."""
     return (mode.frequency + WAVES[wave] * mode.nodal_diameter * speeds) / (2.0 * np.pi)
 

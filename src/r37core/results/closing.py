@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 
 from .limits import beyond_limits, reasons_beyond_limits
 
@@ -72,7 +73,7 @@ def _span(values: Sequence[Any]) -> str:
     return " to ".join(ends)
 
 
-def remarks_on_contact(runs: Sequence[tuple[str, np.ndarray]]) -> list[str]:
+def remarks_on_contact(runs: Sequence[tuple[str, ndarray]]) -> list[str]:
     """A line on all runs without a contact force at any speed, whose zeros are no result.
 
     `runs`: blade and scene in words, and the largest normal force (N) at each speed, NaN for a speed that was not run.

@@ -10,6 +10,7 @@ import netCDF4
 import numpy as np
 import pandas as pd
 import xarray as xr
+from xarray import Dataset
 
 from r37core.base.dataset_file import SPEED_RPM, attributes_of, joined_hash, new_netcdf, open_dataset
 from r37core.base.origin import origin
@@ -39,7 +40,7 @@ def join(
     file: Path | str,
     title: str,
     provenance: Mapping[str, object],
-    read: Callable[[Any], AbstractContextManager[xr.Dataset]] = open_dataset,
+    read: Callable[[Any], AbstractContextManager[Dataset]] = open_dataset,
 ) -> None:
     """Join the datasets of the `sources`, by their labels, in a file with this `title`.
 

@@ -5,6 +5,7 @@ have the leading edge alone instead of the dimension `tip_point`.
 """
 
 import numpy as np
+from numpy import ndarray
 from xarray import DataArray, Dataset
 
 from r37core.time_integration.settling import MotionAtEnd
@@ -26,7 +27,7 @@ def ran(response: Dataset) -> Dataset:
     return response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
 
 
-def motion(response: Dataset) -> np.ndarray:
+def motion(response: Dataset) -> ndarray:
     """Rms (m) of the leading edge's normal and tangential motion together, shape (speeds,); 0 where a run diverged."""
     edge = leading_edge(response)
     return np.nan_to_num(np.hypot(edge["rms_normal"].values, edge["rms_tangential"].values))
@@ -73,7 +74,7 @@ def lasts(response: Dataset) -> DataArray:
     return ~response["motion_at_end"].isin([MotionAtEnd.QUIET, MotionAtEnd.CUT_FREE])
 
 
-def first_yield(history: np.ndarray, yield_stress: float) -> float:
+def first_yield(history: ndarray, yield_stress: float) -> float:
     """Number of the first revolution of a stress history (Pa) beyond yield; NaN if none is."""
     above = np.flatnonzero(history > yield_stress)
     return float(above[0] + 1) if len(above) else np.nan

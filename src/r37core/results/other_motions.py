@@ -5,6 +5,7 @@ is not run is NaN.
 """
 
 import numpy as np
+from numpy import ndarray
 from xarray import Dataset
 
 
@@ -13,6 +14,6 @@ def swept(motions: Dataset) -> Dataset:
     return motions.isel(speed=np.flatnonzero(motions["differ"].notnull().values))
 
 
-def half_step(speeds: np.ndarray) -> float:
+def half_step(speeds: ndarray) -> float:
     """Half of the smallest step between speeds: by so much a range of speeds is drawn beyond its ends; 0 of a single one."""
     return 0.5 * float(np.diff(speeds).min()) if len(speeds) > 1 else 0.0

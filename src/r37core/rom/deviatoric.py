@@ -1,9 +1,10 @@
 """Parts of a stress whose length is the von Mises stress. Light: the simulation jobs import it."""
 
 import numpy as np
+from numpy import ndarray
 
 
-def deviatoric(stress: np.ndarray) -> np.ndarray:
+def deviatoric(stress: ndarray) -> ndarray:
     """Parts a to e, shape (5, ...), float32, whose length is the von Mises stress, of components xx yy zz xy yz zx.
 
     a = sqrt(3)/2 (xx - yy),  b = zz - (xx + yy)/2,  (c, d, e) = sqrt(3) (xy, yz, zx)

@@ -5,6 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
+from numpy import ndarray
+from scipy.sparse import csr_array
 
 from r37core.fem.material import Material
 from r37core.fem.matrices import StructuralMatrices
@@ -38,7 +40,7 @@ def reduce_blade(
     """
     mass = matrices.mass()
     contact = tip_contact(mesh, boundary)
-    coordinates = sp.csr_array(sp.kron(contact.weights[:, matrices.free_nodes], sp.eye_array(3)))
+    coordinates = csr_array(sp.kron(contact.weights[:, matrices.free_nodes], sp.eye_array(3)))
     shapes = {name: matrices.free(shape) for name, shape in ideal_shapes(mesh).items()}
     if mesh.cyclic is None:
         is_linear = reduction.kinematics == LINEAR
@@ -55,7 +57,7 @@ def reduce_blade(
         squares, modes = fields["disc"].squared_frequencies[-1], fields["disc"].highest_modes
     whole, rotated = matrices.whole(vectors), matrices.whole(rotation_shapes)
 
-    def recovery(nodes: np.ndarray) -> RecoveryNodes:
+    def recovery(nodes: ndarray) -> RecoveryNodes:
         return RecoveryNodes(nodes, mesh.points[nodes], whole[nodes], rotated[nodes])
 
     mass_times_vectors = mass @ vectors

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.declared import Key
 from r37core.mesh.blade_mesh import BladeMesh
@@ -47,7 +48,7 @@ class RegionChoice:
         text += f", modes up to {self.highest_frequency:g} Hz" if np.isfinite(self.highest_frequency) else ""
         return text + (", at integration points" if self.integration_points else "")
 
-    def elements(self, mesh: BladeMesh, contact_nodes: np.ndarray) -> dict[str, np.ndarray]:
+    def elements(self, mesh: BladeMesh, contact_nodes: ndarray) -> dict[str, ndarray]:
         """Nodes of the elements all of whose nodes qualify, by element type."""
         (x, _, z), span = mesh.points.T, mesh.parameters[:, 1]
         qualifies = (x < self.maximum_x) & (z > self.minimum_z) & (z < self.maximum_z)

@@ -1,6 +1,7 @@
 """Time steps that a simulation bears: the limits of stability, each with the recursion it is derived from."""
 
 import numpy as np
+from numpy import ndarray
 
 from r37core.base.io import CarriedError
 from r37core.contact.scene import Scene
@@ -27,7 +28,7 @@ def largest_pressed_ratio(scene: Scene) -> float:
     return 1.0 if scene.friction is None else WITH_FRICTION
 
 
-def ratio_of_pressed_nodes(recursion: Recursion, normal: np.ndarray, flexibility: np.ndarray) -> float:
+def ratio_of_pressed_nodes(recursion: Recursion, normal: ndarray, flexibility: ndarray) -> float:
     """Ratio of a step to its limit while all nodes are pressed on the casing, with the force of t_n; unstable from 1 on.
 
     `normal`: the nodes' normal displacement by stepped modes, shape (nodes, modes); `flexibility` (m/N): by static ones. The
