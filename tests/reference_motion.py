@@ -150,7 +150,7 @@ class MotionWithCasing:
         return replace(state, displacement=state.displacement[: self._stepped], increment=state.increment[: self._stepped])
 
     def _turned(self, casing, step):
-        return self._ring.turned(casing, 2.0 * np.pi * step / self._problem.grid.steps_per_revolution)
+        return turned(self._ring, casing, 2.0 * np.pi * step / self._problem.grid.steps_per_revolution)
 
     def read(self, state):
         step = state.samples * self._problem.grid.steps_per_sample
@@ -199,3 +199,10 @@ def motion_of(problem, recursion):
     else:
         blade = RealMotion(problem.blade.modes, recursion)
     return blade if problem.casing.ring is None else MotionWithCasing(blade, problem, recursion)
+
+
+def turned(ring, coordinates, angle):
+    """Coordinates of a casing's modes in a frame turned by `angle` (rad) towards negative theta, shape (..., 2 modes)."""
+    cosine, sine = (function(angle * ring.nodal_diameters) for function in (np.cos, np.sin))
+    first, second = np.split(coordinates, 2, axis=-1)
+    return np.concatenate([cosine * first - sine * second, sine * first + cosine * second], axis=-1)

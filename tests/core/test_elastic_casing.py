@@ -9,6 +9,7 @@ from defaults import Casing, Friction, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, ELASTIC, SCENES, oscillator, random_model, with_static_modes
 from integration_cases import RING as STEEL
 from integration_runs import ENGINES, assert_close, assert_same_record, assert_same_state, both_engines, times, whole_run
+from reference_motion import turned
 from scipy.integrate import solve_ivp
 
 from r37core.base.plain import to_json, to_plain
@@ -205,8 +206,8 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
         state.increment[:] = -0.5 * problem.contact.recursion.inverse * on_modes
         record = simulation.advance(state, 1)
         np.testing.assert_allclose(times(simulation, 50), time, rtol=1e-12)
-        turned = np.array([ring.turned(exact[1 : len(own), i], speed * time[i]) for i in range(len(time))]) * ring.size
-        errors.append(np.abs(record.casing - turned).max() / np.abs(turned).max())
+        expected = np.array([turned(ring, exact[1 : len(own), i], speed * time[i]) for i in range(len(time))]) * ring.size
+        errors.append(np.abs(record.casing - expected).max() / np.abs(expected).max())
         steps.append(problem.grid.time_step)
         assert np.abs(record.samples[:, 0] - exact[0]).max() < 30.0 * errors[-1] * np.abs(exact[0]).max()
     orders = np.diff(np.log(errors)) / np.diff(np.log(steps))

@@ -136,7 +136,7 @@ def approach(radius: ndarray, displacement: ndarray, cone_angle: float) -> ndarr
     """
     radial, tangential, axial = displacement
     outwards = np.hypot(radius + radial, tangential) - radius
-    return casing_axes(np.stack([outwards, np.zeros_like(outwards), axial]), cone_angle)[0]
+    return np.cos(cone_angle) * outwards - np.sin(cone_angle) * axial
 
 
 def casing_axes(cylindrical: ndarray, cone_angle: float) -> ndarray:

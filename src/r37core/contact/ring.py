@@ -151,9 +151,3 @@ class RingMotion:
         out = np.hstack([radial * cosine, radial * sine])
         along = np.hstack([-tangential * sine, tangential * cosine])
         return np.stack([out, along, np.zeros_like(out)])
-
-    def turned(self, coordinates: ndarray, angle: float) -> ndarray:
-        """Coordinates in a frame turned by `angle` (rad) towards negative theta, shape (..., 2 modes)."""
-        cosine, sine = (function(angle * self.nodal_diameters) for function in (np.cos, np.sin))
-        first, second = np.split(coordinates, 2, axis=-1)
-        return np.concatenate([cosine * first - sine * second, sine * first + cosine * second], axis=-1)
