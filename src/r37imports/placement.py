@@ -7,6 +7,7 @@ import numpy as np
 from r37core.base.units import LENGTH_UNITS
 from r37core.blade.sense import TipSense
 from r37core.fem.orientation import Orientation
+from r37core.rom.recovery_nodes import cylinder
 
 from .importing.raw_mesh import RawMesh
 from .refusal import UNLESS, ImportRefused, warn_of
@@ -36,7 +37,7 @@ def to_blade(orientation: Orientation, mesh: RawMesh) -> RawMesh:
 def contact_nodes_to_blade(orientation: Orientation, points: np.ndarray) -> np.ndarray:
     """Contact nodes at the tip, shape (n, 3), in metres and the blade's frame. Raises ImportRefused as `to_blade`."""
     placed = orientation.points_to_blade(points)
-    radius = np.hypot(placed[:, 0], placed[:, 1])
+    radius, _, _ = cylinder(placed)
     low, high = _TIP_RADIUS_BETWEEN
     if not low <= radius.min() <= radius.max() <= high:
         raise ImportRefused(
@@ -51,7 +52,7 @@ def contact_nodes_to_blade(orientation: Orientation, points: np.ndarray) -> np.n
 
 def warn_of_size(orientation: Orientation, points: np.ndarray) -> None:
     """Warn of `points` (m) of the blade's frame, shape (n, 3), that reach as far from the axis as hardly any blade does."""
-    tip, (low, high) = float(np.hypot(points[:, 0], points[:, 1]).max()), _USUAL_TIP_RADIUS
+    tip, (low, high) = cylinder(points)[0].max(), _USUAL_TIP_RADIUS
     if not low <= tip <= high:
         warn_of(
             f"length_unit {orientation.length_unit} gives a tip radius of {tip:.3g} m; those of blades are {low:g} to {high:g} "
@@ -61,8 +62,8 @@ def warn_of_size(orientation: Orientation, points: np.ndarray) -> None:
 
 def check_place(orientation: Orientation, points: np.ndarray) -> None:
     """Raise ImportRefused where a blade at `points` (m), shape (n, 3), in its frame has no plausible size or place."""
-    radius = np.hypot(points[:, 0], points[:, 1])
-    span = float(np.ptp(radius))
+    radius, _, _ = cylinder(points)
+    span = np.ptp(radius)
     sizes = " x ".join(f"{size:.3g}" for size in np.ptp(points, axis=0))
     low, high = _SPAN_BETWEEN
     if not low < span < high:
@@ -86,11 +87,12 @@ def check_place(orientation: Orientation, points: np.ndarray) -> None:
 
 
 def _check_side(orientation: Orientation, points: np.ndarray, what: str) -> None:
-    mean = points.mean(axis=0)
-    if not mean[0] > _RADIAL_WITHIN * np.hypot(mean[0], mean[1]):
-        x, y, z = np.round(mean[:2] @ orientation.rows[:2] / np.hypot(mean[0], mean[1]), 3) + 0.0
+    mean = points.mean(axis=0)[:2]
+    distance = np.hypot(*mean)
+    if not mean[0] > _RADIAL_WITHIN * distance:
+        x, y, z = np.round(mean @ orientation.rows[:2] / distance, 3) + 0.0
         raise ImportRefused(
-            f"{what} lies at {np.degrees(np.arctan2(mean[1], mean[0])):.0f} degrees round the axis from "
+            f"{what} lies at {np.degrees(np.arctan2(*mean[::-1])):.0f} degrees round the axis from "
             f"`radial`; rotor_axis, axis_point or radial does not fit the file; fitting: radial: [{x:g}, {y:g}, {z:g}]",
             "radial",
         )

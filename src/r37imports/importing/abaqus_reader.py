@@ -56,12 +56,14 @@ def read_abaqus(file: Path) -> RawMesh:
     labels = np.array(list(deck.points), dtype=np.int64)
     number = {label: i for i, label in enumerate(deck.points)}
     try:
-        points = _placed(deck, np.array(list(deck.points.values()), dtype=float).reshape(len(labels), 3))
+        points = _placed(deck, np.array(list(deck.points.values()), dtype=float).reshape(-1, 3))
         cells = [(name, np.array([[number[n] for n in row] for row in of.values()])) for name, of in deck.solids.items()]
     except KeyError as error:
         raise ImportRefused(f"an element names node {error.args[0]}, which the deck lacks") from None
-    members = {name: [number[label] for label in labels if label in number] for name, labels in _node_lists(deck)}
-    sets = {name: np.unique(np.array(nodes, dtype=np.int64)) for name, nodes in members.items()}
+    sets = {
+        name: np.array(sorted({number[label] for label in of_set if label in number}), dtype=np.int64)
+        for name, of_set in _node_lists(deck)
+    }
     return RawMesh(points, labels, solid_blocks(cells), sets)
 
 
@@ -107,8 +109,10 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
     elif keyword in ("NSET", "ELSET"):
         sets = deck.node_sets if keyword == "NSET" else deck.element_sets
         _add(sets, options.get(keyword), _members(sets, "GENERATE" in options, rows))
-    elif keyword == "BOUNDARY" and _prescribes_displacement(options):
-        deck.held += [(row[0], _directions_held(row)) for row in rows]
+    elif keyword == "BOUNDARY" and options.get("TYPE", "DISPLACEMENT").upper() == "DISPLACEMENT":
+        # neither of another model nor of a motion over time
+        if options.keys().isdisjoint(("SUBMODEL", "USER", "AMPLITUDE")):
+            deck.held += [(row[0], _directions_held(row)) for row in rows]
     elif keyword == "SURFACE" and options.get("TYPE", "ELEMENT").upper() == "ELEMENT":
         deck.surfaces[options.get("NAME", "")] = [(row[0], row[1].upper() if len(row) > 1 else "") for row in rows]
 
@@ -186,12 +190,6 @@ def _named(sets: dict[str, list[int]], cell: str) -> list[int]:
     """The number that a cell has, or the members of the set that it names; Part-1-1.12 is number 12 of an instance."""
     plain = cell.strip('"').rpartition(".")[2]
     return [int(plain)] if plain.isdigit() else sets.get(_found(sets, plain), [])
-
-
-def _prescribes_displacement(options: dict[str, str]) -> bool:
-    """True if a block *BOUNDARY prescribes displacements, not velocities or those of another model."""
-    same_type = options.get("TYPE", "DISPLACEMENT").upper() == "DISPLACEMENT"
-    return same_type and options.keys().isdisjoint(("SUBMODEL", "USER", "AMPLITUDE"))
 
 
 def _directions_held(row: list[str]) -> range:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from r37core.fem.surface import Faces, area_vectors, chosen, mask_within, nodes_of, smooth_patches
+from r37core.rom.recovery_nodes import cylinder
 from r37imports.refusal import ImportRefused
 
 from .raw_mesh import RawMesh
@@ -26,10 +27,9 @@ _UNEVEN = 0.1  # of what flanks look to a side, summed: to one side more than to
 
 @dataclass(frozen=True)
 class Caught:
-    """A part of the blade's surface: its `nodes` (of a set as the root, all), `faces` and their `mask` over all outer faces."""
+    """A part of the blade's surface: its `nodes` (of a set as the root, all), and its faces as a `mask` over all outer ones."""
 
     nodes: np.ndarray
-    faces: list[Faces]
     mask: np.ndarray
 
 
@@ -57,12 +57,11 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     near = (heights >= radius.max() - _BELOW * np.ptp(radius)) | (what == "root")
     large = areas >= _LARGE * areas[near if near.any() else slice(None)].max()
     mask = patch == np.argmax(np.where(large, heights if what == "tip" else -heights, -np.inf))
-    faces = chosen(surface, mask)
-    nodes = nodes_of(faces)
+    nodes = nodes_of(chosen(surface, mask))
     rule = _cone(points[nodes])
     straight = rule.tolerance <= max(_STRAIGHT * np.ptp(radius), _TOLERANCES[0])
     is_exact = np.array_equal(mask_within(surface, rule.within(points)), mask)
-    return End(nodes, faces, mask, rule, straight) if is_exact else None
+    return End(nodes, mask, rule, straight) if is_exact else None
 
 
 def find_flanks(points: np.ndarray, surface: list[Faces]) -> End | None:
@@ -71,23 +70,25 @@ def find_flanks(points: np.ndarray, surface: list[Faces]) -> End | None:
     `points` (m), shape (nodes, 3). None where there are none, or where no rule catches all of them and nothing else.
     """
     vectors, looks, radius = _face_looks(points, surface)
-    sizes, distance = np.linalg.norm(vectors, axis=1), np.hypot(*points[:, :2].T)
+    sizes, distance = np.linalg.norm(vectors, axis=1), cylinder(points)[0]
     slanted = (np.minimum(looks[:, 0], np.abs(looks[:, 1])) >= _SLANTED) & (radius < 0.5 * (radius.min() + radius.max()))
     patch = np.where(slanted, smooth_patches(surface, vectors, _PLANAR), -1)
     areas = np.bincount(patch + 1, sizes)[1:]
     mask, planes = np.zeros(len(patch), dtype=bool), []
     for number in np.flatnonzero(areas >= _LARGE * areas.max(initial=1e-300)):
-        nodes, normal = nodes_of(chosen(surface, patch == number)), vectors[patch == number].sum(axis=0)
+        own = patch == number
+        nodes, normal = nodes_of(chosen(surface, own)), vectors[own].sum(axis=0)
         heights = points @ (normal := normal / np.linalg.norm(normal))
+        height = heights[nodes].mean()
         # a fillet has the platform below and before it
-        if heights[distance < distance[nodes].min()].max(initial=-np.inf) < heights[nodes].mean() + _TOLERANCES[0]:
-            mask |= patch == number
-            planes.append(heights[nodes].mean() * normal)
+        if heights[distance < distance[nodes].min()].max(initial=-np.inf) < height + _TOLERANCES[0]:
+            mask |= own
+            planes.append(height * normal)
     aside, feet = (sizes * looks[:, 1])[mask], tuple(map(tuple, (np.round(planes, _ROUNDED) + 0.0).tolist()))
     is_even = abs(aside.sum()) <= _UNEVEN * np.abs(aside).sum()
     for rule in (Where(planes=feet, tolerance=tolerance) for tolerance in _TOLERANCES[:-1]):
         if is_even and np.array_equal(mask_within(surface, rule.within(points)), mask):
-            return End(nodes_of(chosen(surface, mask)), chosen(surface, mask), mask, rule, True)
+            return End(nodes_of(chosen(surface, mask)), mask, rule, True)
     return None
 
 
@@ -130,16 +131,15 @@ def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> C
     """
     members = where.nodes(what, mesh)
     mask = mask_within(surface, members)
-    faces = chosen(surface, mask)
     if what == "root" and where.sets and members.any():
-        return Caught(np.flatnonzero(members), faces, mask)
+        return Caught(np.flatnonzero(members), mask)
     if not mask.any():
         remark = f", which has {members.sum()} nodes" if where.sets else ""
         raise ImportRefused(
             f"{what}: no outer face has all its nodes within {where.describe()}{remark}; give another set or rule, or a wider "
             f"tolerance_m"
         )
-    return Caught(nodes_of(faces), faces, mask)
+    return Caught(nodes_of(chosen(surface, mask)), mask)
 
 
 def check_end(what: str, where: Where, caught: Caught, end: End | None, points: np.ndarray, surface: list[Faces]) -> None:
@@ -179,7 +179,7 @@ def check_root(points: np.ndarray, root: np.ndarray, tip: np.ndarray) -> None:
     offsets = points[root] - points[root].mean(axis=0)
     if np.linalg.matrix_rank(offsets, tol=1e-6 * np.ptp(points, axis=0).max()) < 2:
         raise ImportRefused(f"root: found {len(root)} nodes on one line, which do not hold the blade; give the nodes of a face")
-    inner, outer = (np.hypot(*points[nodes, :2].T).mean() for nodes in (root, tip))
+    inner, outer = (cylinder(points[nodes])[0].mean() for nodes in (root, tip))
     if inner >= outer:
         raise ImportRefused(
             f"root: found clamped nodes at a radius of {inner:.4g} m and a tip at {outer:.4g} m; allowed: a root nearer to the "
@@ -191,7 +191,7 @@ def check_root(points: np.ndarray, root: np.ndarray, tip: np.ndarray) -> None:
 
 def _cone(points: np.ndarray) -> Where:
     """The rule of the cone about z through nodes at `points`, shape (n, 3): radius as a straight line of z, least squares."""
-    radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    radius, _, z = cylinder(points)
     flat = np.ptp(z) < 1e-6 * np.ptp(points, axis=0).max()
     line = np.polynomial.Polynomial.fit(z, radius, 0 if flat else 1)
     first, last = z.min(), z.max() if not flat else z.min() + 1.0

@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from r37core.fem.orientation import Orientation
-from r37core.fem.surface import Faces, outer_faces
+from r37core.fem.surface import Faces, chosen, outer_faces
+from r37core.rom.recovery_nodes import cylinder
 from r37imports.placement import fitting_units, to_blade
 from r37imports.refusal import ASKED, ImportRefused, MeshWarning
 
@@ -45,15 +46,14 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
     for what in ("root", "tip"):
         end = find_end(what, mesh.points, surface)
         flanks = find_flanks(mesh.points, surface) if what == "root" else None
-        rules = [part.rule.as_yaml() for part in (flanks, end) if part is not None]
+        rules = [part.rule.as_yaml() for part in (flanks, end) if part]
         if rules and not _catches(what, source, mesh, surface, end):
             entry[what] = " # or its bottom: ".join(rules)
         if not rules and getattr(source, what).sets == (ASKED,):
             entry[f"# {what}"] = "no cone catches one whole face alone; give sets of the file, or limits such as r_at_most_m"
-        if what == "tip" and end is not None:
+        if what == "tip" and end:
             entry |= _tolerance_of_flat_tip(mesh.points[end.nodes], source.revolution_tolerance)
-    platform = None if source.hub_zr else find_platform(mesh.points, surface)
-    if platform is not None:
+    if not source.hub_zr and (platform := find_platform(mesh.points, surface)):
         entry["hub_zr_m"] = platform.points_as_yaml()
     return entry
 
@@ -76,7 +76,7 @@ def _fitting_unit(orientation: Orientation, raw: RawMesh) -> str | float | None:
     except ImportRefused as error:
         if error.key == "length_unit":
             points = orientation.points_to_blade(raw.points) / orientation.metres_per_unit
-            return next(iter(fitting_units(np.ptp(np.hypot(points[:, 0], points[:, 1])))), None)
+            return next(iter(fitting_units(np.ptp(cylinder(points)[0]))), None)
     return orientation.length_unit
 
 
@@ -118,7 +118,7 @@ def find_axes(mesh: RawMesh, like: Orientation) -> Orientation | None:
         tried = replace(like, length_unit=_SIZE / size, rotor_axis=tuple(axis), radial=radial, rotation="negative")
         placed = tried.points_to_blade(mesh.points)
         hub, casing = (find_end(what, placed, surface) for what in ("root", "tip"))
-        if hub is not None and casing is not None and hub.straight and casing.straight:
+        if hub and casing and hub.straight and casing.straight:
             candidates.append((hub.rule.tolerance + casing.rule.tolerance, tried))
     _, best = min(candidates, key=lambda candidate: candidate[0])
     if best is like:
@@ -133,10 +133,10 @@ def find_axes(mesh: RawMesh, like: Orientation) -> Orientation | None:
 def _makes_sense(mesh: RawMesh, orientation: Orientation) -> bool:
     """True if leading edge and pressure side of the tip fit the orientation, and follow from its shape."""
     placed = to_blade(orientation, mesh)
-    casing = find_end("tip", placed.points, outer_faces(placed.blocks))
-    if casing is None:
-        return False
+    surface = outer_faces(placed.blocks)
+    casing = find_end("tip", placed.points, surface)
     with suppress(ImportRefused, MeshWarning), warnings.catch_warnings(action="error", category=MeshWarning):
-        check_sense(placed.points, find_tip_lines(placed.points, casing.faces, True), True)
-        return True
+        if casing:
+            check_sense(placed.points, find_tip_lines(placed.points, chosen(surface, casing.mask), True), True)
+            return True
     return False

@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from r37core.fem.surface import outer_faces
+from r37core.fem.surface import chosen, outer_faces
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
+from r37core.rom.recovery_nodes import cylinder
 from r37imports.placement import to_blade, warn_of_size
 from r37imports.refusal import ImportRefused, blamed, kept
 
@@ -36,29 +37,26 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     with blamed("mesh", source.file):
         raw = quietly(_READERS[kind_of(file)], file)
         raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, source.minimum_scaled_jacobian)
-    placed = None
+    size = ""
     try:
         with blamed("rotor_axis", source.file):
             placed = to_blade(source.orientation, raw)
             warn_of_size(source.orientation, placed.points)
+        # what fits its shape, fits in any unit
+        radius, _, _ = cylinder(placed.points)
+        unit, reach = source.orientation.length_unit, f"{radius.min():.4g} to {radius.max():.4g} m"
+        size = f"; with length_unit {unit} the blade reaches from {reach} from the axis"
         root, tip, lines = _ends(source, placed)
     except ImportRefused as error:
-        size = ""
-        if placed is not None:
-            # what fits its shape, fits in any unit
-            radius = np.hypot(placed.points[:, 0], placed.points[:, 1])
-            size = (
-                f"; with length_unit {source.orientation.length_unit} the blade reaches from {radius.min():.4g} to "
-                f"{radius.max():.4g} m from the axis"
-            )
         raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw) | _known_sets(source, raw)) from None
-    raw = placed
-    height = source.height(raw.points)
-    if height is not None and (height[tip].min() <= 0.0 or height[root].min() > 0.01 * height[tip].max()):
-        wrong = "a tip that is not above hub_zr_m" if height[tip].min() <= 0.0 else "a root above hub_zr_m"
-        raise ImportRefused(f"{source.file}: found {wrong}; allowed: the platform's top", "hub_zr_m")
+    height = source.height(placed.points)
+    if height is not None:
+        below = height[tip].min() <= 0.0
+        if below or height[root].min() > 0.01 * height[tip].max():
+            wrong = "a tip that is not above" if below else "a root above"
+            raise ImportRefused(f"{source.file}: found {wrong} hub_zr_m; allowed: the platform's top", "hub_zr_m")
     with blamed("mesh", source.file):
-        parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward, height)
+        parameters, normals = blade_parameters(placed.points, root, tip, source.pressure_side_forward, height)
     sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
     # the edges come last: nodes that they share with the camber line count by their place on the edge
     for name, (nodes, fractions) in reversed(lines.items()):
@@ -67,11 +65,9 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     edge = sets["tip_pressure_edge"]
     sets["leading_edge"], sets["trailing_edge"] = edge[:1], edge[-1:]
     parameters[root, 1], parameters[tip, 1] = 0.0, 1.0
-    if source.cyclic is None:
-        return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
     with blamed("cyclic", source.file):
-        cyclic = sector_pairs(source.cyclic, raw, root)
-    return BladeMesh(raw.points, raw.blocks, parameters, normals, sets, cyclic), quality
+        cyclic = sector_pairs(source.cyclic, placed, root) if source.cyclic else None
+    return BladeMesh(placed.points, placed.blocks, parameters, normals, sets, cyclic), quality
 
 
 _MOST_NAMES = 30
@@ -88,9 +84,8 @@ def _known_sets(source: MeshSource, mesh: RawMesh) -> dict[str, str]:
 
 def size_in_words(mesh: BladeMesh, source: MeshSource) -> str:
     """Length and width, radii of tip and root, and where the span begins, as text, to be compared with the real blade."""
-    radius, size = np.hypot(mesh.points[:, 0], mesh.points[:, 1]), np.ptp(mesh.points, axis=0)
-    leading, trailing = (radius[mesh.node_set(f"{name}_edge")].max() for name in ("leading", "trailing"))
-    root = radius[mesh.node_set("root")].mean()
+    radius, size = cylinder(mesh.points)[0], np.ptp(mesh.points, axis=0)
+    leading, trailing, root = (radius[mesh.node_set(name)] for name in ("leading_edge", "trailing_edge", "root"))
     span = "span begins at hub_zr_m, stress regions with a minimum_span lie above"
     if source.hub_zr is None:
         platform = find_platform(mesh.points, outer_faces(mesh.blocks))
@@ -98,8 +93,8 @@ def size_in_words(mesh: BladeMesh, source: MeshSource) -> str:
         span = f"span begins at the clamped faces{hint}"
     return (
         f"{size[0]:.4g} m long and {size[2]:.4g} m wide along the axis, "
-        f"radius of the tip {leading:.4g} m at the leading and {trailing:.4g} m at the trailing edge, of the root {root:.4g} m"
-        f"; {span}"
+        f"radius of the tip {leading.max():.4g} m at the leading and {trailing.max():.4g} m at the trailing edge, "
+        f"of the root {root.mean():.4g} m; {span}"
     )
 
 
@@ -126,11 +121,11 @@ def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, Tip
                 check_end(what, rules[what], part, ends[what], raw.points, surface)
         # where the rule for the tip is refused, the sense is still judged by the faces that it should have caught
         casing = ends["tip"]
-        tip = casing if casing is not None and casing.straight else tip
+        tip = casing if casing and casing.straight else tip
     if tip is not None:
         with kept(refusals, "tip"):
             check_revolution(raw.points[tip.nodes], source.revolution_tolerance)
-            lines = find_tip_lines(raw.points, tip.faces, source.pressure_side_forward)
+            lines = find_tip_lines(raw.points, chosen(surface, tip.mask), source.pressure_side_forward)
             if source.sense_check:
                 check_sense(raw.points, lines, source.pressure_side_forward)
     # ends here where a part was not caught
@@ -165,13 +160,14 @@ def blade_parameters(
     levels = np.linspace(0.0, 1.0, _SECTIONS)
     members = [_members(span, level) for level in levels]
     centres = np.array([0.5 * (points[m].max(axis=0) + points[m].min(axis=0)) for m in members])
-    upward = np.gradient(centres, levels, axis=0)
-    if not np.linalg.norm(centres[-1] - centres[0]) > 1e-6 * np.ptp(points, axis=0).max():
+    upward, whole = np.gradient(centres, levels, axis=0), centres[-1] - centres[0]
+    length = np.linalg.norm(whole)
+    if not length > 1e-6 * np.ptp(points, axis=0).max():
         raise ImportRefused(
             f"found a mesh of {len(points)} nodes, too few to tell sections between root and tip; mesh the blade finer"
         )
     # a coarse mesh has the same nodes in neighbouring sections
-    upward[np.linalg.norm(upward, axis=1) < 0.2 * np.linalg.norm(centres[-1] - centres[0])] = centres[-1] - centres[0]
+    upward[np.linalg.norm(upward, axis=1) < 0.2 * length] = whole
     upward /= np.linalg.norm(upward, axis=1)[:, None]
     chords, normals = _section_axes(points, members, centres, upward, pressure_forward)
     extremes = []
@@ -204,7 +200,7 @@ def _section_axes(
         flat -= np.outer(flat @ up, up)
         _, axes = np.linalg.eigh(flat.T @ flat)
         chord, normal = axes[:, 2], axes[:, 1]
-        theta = np.array([-centre[1], centre[0], 0.0]) / np.hypot(centre[0], centre[1])
+        theta = np.array([-centre[1], centre[0], 0.0]) / np.hypot(*centre[:2])
         towards_suction = theta if pressure_forward else -theta
         # of a beam as thick as it is wide one may lie across the other's usual direction
         chords.append(np.copysign(1.0, chord[2] if abs(chord[2]) > 0.02 else chord @ towards_suction) * chord)

@@ -264,22 +264,21 @@ def _ideal_shapes(matrices: _InputMatrices) -> dict[str, np.ndarray]:
 
     What the first has beyond a further static step (inverse stiffness times mass), orthogonal to it, is the second bending.
     """
-    tangent = matrices.points[-1] - matrices.points[0]
-    tangent = tangent if np.any(tangent) else np.array([0.0, 0.0, 1.0])
+    tangent = matrices.points[-1] - matrices.points[0] if len(matrices.points) > 1 else [0.0, 0.0, 1.0]
     radial = matrices.points.mean(axis=0) * [1.0, 1.0, 0.0]
     normal = np.cross(tangent, radial)
     normal /= np.linalg.norm(normal)
     chord = fractions_along(matrices.points)
     boundary = 3 * len(chord)
-    bending = np.outer(np.ones(len(chord)), normal).ravel()
-    torsion = np.outer(chord - 0.5, normal).ravel()
+    bending, torsion = (np.outer(share, normal).ravel() for share in (np.ones(len(chord)), chord - 0.5))
     if len(chord) == 1:
         torsion = np.cross(normal, radial / np.linalg.norm(radial))
     inner, coupling = matrices.stiffness[boundary:, boundary:], matrices.stiffness[boundary:, :boundary]
     solve = factorise(inner) if inner.shape[0] else lambda load: load
     first, twist = (np.concatenate([part, -solve(coupling @ part)]) for part in (bending, torsion))
-    smooth = matrices.solve_at_rest(matrices.mass @ first)
-    second = first - smooth * (smooth @ (matrices.mass @ first)) / (smooth @ (matrices.mass @ smooth))
+    load = matrices.mass @ first
+    smooth = matrices.solve_at_rest(load)
+    second = first - smooth * (smooth @ load) / (smooth @ (matrices.mass @ smooth))
     return dict(zip(NAMED_MODES, (smooth, twist, second), strict=True))
 
 
@@ -290,8 +289,8 @@ A cantilever of length L and thickness h has about h c / 6 L**2 (c: speed of sou
 blade of fifteen chords, to 500 m/s, of a thick one of half a chord.
 """
 
-_IN_SOME = (0.02, 50e3)
-"""A hundred times less and more."""
+_FARTHEST = 100.0
+"""So many times less or more no blade has."""
 
 
 def wording(model: ReducedModel) -> str:
@@ -304,14 +303,14 @@ def check_frequency(model: ReducedModel, chord: float) -> None:
 
     One contact node has no chord, and is not judged.
     """
-    frequency = _first_frequency(model)
-    if not chord > 0.0 or _USUAL[0] <= frequency * chord <= _USUAL[1]:
+    (low, high), product = _USUAL, chord * _first_frequency(model)
+    if not chord > 0.0 or low <= product <= high:
         return
     text = (
-        f"{wording(model)}, with a tip of {1e3 * chord:.3g} mm; blades of that size have {_USUAL[0] / chord:.2g} to "
-        f"{_USUAL[1] / chord:.2g} Hz: look at mass_unit, stiffness_unit and length_unit"
+        f"{wording(model)}, with a tip of {1e3 * chord:.3g} mm; blades of that size have {low / chord:.2g} to "
+        f"{high / chord:.2g} Hz: look at mass_unit, stiffness_unit and length_unit"
     )
-    if not _IN_SOME[0] <= frequency * chord <= _IN_SOME[1]:
+    if not low / _FARTHEST <= product <= high * _FARTHEST:
         raise ImportRefused(text)
     warn_of(text)
 

@@ -35,11 +35,10 @@ def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.
     for name, nodes in mesh.blocks.items():
         _check_once(mesh, name, nodes)
         _check_midside(mesh, name, nodes)
-    blocks, quality = {}, []
+    blocks, quality = {}, {}
     for name, nodes in mesh.blocks.items():
-        blocks[name], block_quality = _right_way_out(mesh, name, nodes)
-        _check_shape(mesh, name, block_quality, minimum_scaled_jacobian)
-        quality.append(block_quality)
+        blocks[name], quality[name] = _right_way_out(mesh, name, nodes)
+        _check_shape(mesh, name, quality[name], minimum_scaled_jacobian)
     _check_one_order(mesh)
     _tell_holes(mesh.points, outer_faces(blocks))
     linear = [name for name in blocks if not ELEMENTS[name].quadratic]
@@ -48,7 +47,7 @@ def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.
             f"elements of first order ({', '.join(linear)}) are too stiff in bending: frequencies come out too high, often by "
             "10% and more; write the mesh with second-order elements"
         )
-    return replace(mesh, blocks=blocks), np.concatenate(quality)
+    return replace(mesh, blocks=blocks), np.concatenate(list(quality.values()))
 
 
 def _check_free_nodes(mesh: RawMesh) -> None:
@@ -141,17 +140,17 @@ def _tell_holes(points: np.ndarray, faces: list[Faces]) -> None:
 def _check_midside(mesh: RawMesh, name: str, nodes: np.ndarray) -> None:
     for edge, middle in ELEMENTS[name].edges.items():
         start, end, point = (mesh.points[nodes[:, i]] for i in (*edge, middle))
-        along = end - start
-        length = np.linalg.norm(along, axis=1)
-        offset = point - 0.5 * (start + end)
-        share = np.abs(np.sum(offset * along, axis=1)) / np.maximum(length, 1e-300) ** 2
-        across = np.linalg.norm(offset, axis=1) / np.maximum(length, 1e-300)
+        along, offset = end - start, point - 0.5 * (start + end)
+        length = np.maximum(np.linalg.norm(along, axis=1), 1e-300)
+        share = np.abs(np.sum(offset * along, axis=1)) / length**2
+        across = np.linalg.norm(offset, axis=1) / length
         wrong = ~((share <= ALONG_EDGE) & (across <= OFF_EDGE))
         if wrong.any():
+            first = np.argmax(wrong)
             raise ImportRefused(
                 f"mid-nodes off their edges in {wrong.sum()} of {len(nodes)} elements of type {name}, for example node "
-                f"{mesh.labels[nodes[np.argmax(wrong), middle]]}, {across[np.argmax(wrong)]:.2f} edge lengths from the middle "
-                "of its edge; the file's node order is another one, or the mesh is distorted"
+                f"{mesh.labels[nodes[first, middle]]}, {across[first]:.2f} edge lengths from the middle of its edge; the "
+                "file's node order is another one, or the mesh is distorted"
             )
 
 
@@ -164,8 +163,7 @@ def _right_way_out(mesh: RawMesh, name: str, nodes: np.ndarray) -> tuple[np.ndar
 
 
 def _check_shape(mesh: RawMesh, name: str, quality: np.ndarray, minimum: float) -> None:
-    inverted = quality <= 0.0
-    worst = int(np.argmin(quality))
+    inverted, worst = quality <= 0.0, np.argmin(quality)
     where = f"number {worst + 1} of its type, near {_place(mesh.points[mesh.blocks[name][worst]].mean(axis=0))}"
     if inverted.any():
         raise ImportRefused(f"{inverted.sum()} of {len(quality)} elements of type {name} are inside out or folded ({where})")

@@ -73,8 +73,7 @@ def read_msh(file: Path) -> RawMesh:
         wanted = [group] if is_old else entities
         pairs = zip(mesh.cells, numbers, strict=True)
         # a group names a surface that is turned round by a negative number
-        parts = [block.data[np.isin(np.abs(own), wanted)].ravel() for block, own in pairs if block.dim == dimension]
-        nodes = np.concatenate([np.empty(0, dtype=int), *parts])
+        nodes = _joined(block.data[np.isin(np.abs(own), wanted)] for block, own in pairs if block.dim == dimension)
         sets += [(name, nodes) for name in (f"gmsh:physical={group}", names.get((dimension, group))) if name]
     mesh.cell_data.pop("gmsh:physical", None)
     # meshio has numbers of surfaces for cells
@@ -236,15 +235,19 @@ def _sets(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
     if not getattr(mesh, "cell_tags", None):
         for name, members in mesh.cell_sets.items():
             chosen = zip(cells, members, strict=True)
-            parts = [block[np.asarray(some, dtype=int)].ravel() for block, some in chosen if some is not None]
-            yield name, np.concatenate([np.empty(0, dtype=int), *parts])
+            yield name, _joined(block[np.asarray(some, dtype=int)] for block, some in chosen if some is not None)
     for name, nodes in mesh.point_sets.items():
         yield name, np.asarray(nodes, dtype=int)
 
 
 def _nodes_where(pairs: Iterable[tuple[np.ndarray, np.ndarray]], number: int) -> np.ndarray:
     """Nodes of the cells that have `number` in a field, of `pairs` of cells and values."""
-    return np.concatenate([np.empty(0, dtype=int), *(nodes[values == number].ravel() for nodes, values in pairs)])
+    return _joined(nodes[values == number] for nodes, values in pairs)
+
+
+def _joined(parts: Iterable[np.ndarray]) -> np.ndarray:
+    """All numbers of some arrays, one after another."""
+    return np.concatenate([np.empty(0, dtype=int), *map(np.ravel, parts)])
 
 
 _MOST_VALUES = 100

@@ -2,6 +2,7 @@
 
 import numpy as np
 from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
 
 from r37core.fem.surface import nodes_of, outer_faces
 from r37imports.refusal import ASKED, ImportRefused
@@ -20,48 +21,35 @@ def sector_pairs(cyclic: CyclicFaces, mesh: RawMesh, root: np.ndarray) -> np.nda
 
     `root`: clamped nodes. Low is the face behind in the sense of theta, whichever the names are. Raises ImportRefused.
     """
-    surface = nodes_of(outer_faces(mesh.blocks))
-    asked = ASKED in (cyclic.low, cyclic.high)
-    first, second = (surface, surface) if asked else (_members(cyclic, key, mesh) for key in ("low", "high"))
-    both = np.intersect1d(first, second)
-    if not asked and len(both):
-        raise ImportRefused(f"cyclic: {len(both)} nodes are in both faces; allowed: faces without a common node", "cyclic")
-    points, size = mesh.points, np.ptp(mesh.points, axis=0).max()
-    turned = points @ _turn(2.0 * np.pi / cyclic.sectors).T
-    forth, back = (cKDTree(points[there]).query(turned[here]) for here, there in ((first, second), (second, first)))
-    if asked:
-        matched = forth[0] <= _SAME * size
-        if matched.sum() < 3:
-            raise ImportRefused(
-                f"cyclic: turned by {360.0 / cyclic.sectors:g} degrees no face of the mesh lies on another (nearest "
-                f"{1e3 * forth[0].min():.3g} mm; allowed: {1e3 * _SAME * size:.2g} mm); check sectors, or {_REMEDY}",
-                "cyclic",
-            )
-        pairs = np.stack([first[matched], second[forth[1][matched]]], axis=1)
+    points, names = mesh.points, {"low": cyclic.low, "high": cyclic.high}
+    if asked := ASKED in names.values():
+        first = second = nodes_of(outer_faces(mesh.blocks))
     else:
-        flipped = back[0].max() < forth[0].max()
-        low, high, (distance, nearest) = (second, first, back) if flipped else (first, second, forth)
-        if len(low) != len(high) or distance.max() > _SAME * size:
-            raise ImportRefused(
-                f"cyclic: the faces '{cyclic.low}' ({len(first)} nodes) and '{cyclic.high}' ({len(second)} nodes), turned by "
-                f"{360.0 / cyclic.sectors:g} degrees, do not match (largest distance {1e3 * distance.max():.3g} mm; "
-                f"allowed: {1e3 * _SAME * size:.2g} mm); check sectors, or {_REMEDY}",
-                "cyclic",
-            )
-        pairs = np.stack([low, high[nearest]], axis=1)
-    clamped = np.isin(pairs, root)
-    if (clamped[:, 0] != clamped[:, 1]).any() or clamped.all():
+        first, second = (np.flatnonzero(Where((names[key],)).nodes(f"cyclic: {key}", mesh)) for key in names)
+        if both := len(np.intersect1d(first, second)):
+            raise ImportRefused(f"cyclic: {both} nodes are in both faces; allowed: faces without a common node")
+    angle, allowed = 360.0 / cyclic.sectors, _SAME * np.ptp(points, axis=0).max()
+    turned = Rotation.from_euler("z", angle, degrees=True).apply(points)
+    forth, back = (cKDTree(points[there]).query(turned[here]) for here, there in ((first, second), (second, first)))
+    flipped = back[0].max() < forth[0].max()
+    low, high, (distance, nearest) = (second, first, back) if flipped else (first, second, forth)
+    matched = distance <= allowed
+    if asked:
+        agrees, off = matched.sum() >= 3, f"no face of the mesh lies on another (nearest {1e3 * distance.min():.3g}"
+    else:
+        agrees = matched.all() and len(low) == len(high)
+        faces = f"'{cyclic.low}' ({len(first)} nodes) and '{cyclic.high}' ({len(second)} nodes)"
+        off = f"the faces {faces} do not match (largest distance {1e3 * distance.max():.3g}"
+    if not agrees:
         raise ImportRefused(
-            f"cyclic: of {len(pairs)} pairs of nodes {np.sum(clamped[:, 0] != clamped[:, 1])} have one clamped node and "
+            f"cyclic: turned by {angle:g} degrees {off} mm; allowed: {1e3 * allowed:.2g} mm); check sectors, or {_REMEDY}"
+        )
+    pairs = np.stack([low[matched], high[nearest[matched]]], axis=1)
+    clamped = np.isin(pairs, root)
+    if (single := np.sum(clamped[:, 0] != clamped[:, 1])) or clamped.all():
+        raise ImportRefused(
+            f"cyclic: of {len(pairs)} pairs of nodes {single} have one clamped node and "
             f"{clamped.all(axis=1).sum()} have two; allowed: a root that ends alike at both faces, such as the bore",
             "root",
         )
     return pairs
-
-
-def _members(cyclic: CyclicFaces, key: str, mesh: RawMesh) -> np.ndarray:
-    return np.flatnonzero(Where((getattr(cyclic, key),)).nodes(f"cyclic: {key}", mesh))
-
-
-def _turn(angle: float) -> np.ndarray:
-    return np.array([[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]])

@@ -12,6 +12,7 @@ from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
 from r37core.blade.definition import Definition
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.orientation import Orientation
+from r37core.rom.recovery_nodes import cylinder
 from r37imports.refusal import ASKED, ImportRefused, warn_of
 
 from .files import matrix_files, mesh_files
@@ -64,7 +65,7 @@ class Where:
         """Distance (m) of `points`, shape (n, 3), from the cone, shape (n,)."""
         assert self.cone_zr is not None
         (z0, r0), (z1, r1) = self.cone_zr
-        radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+        radius, _, z = cylinder(points)
         return ((radius - r0) * (z1 - z0) - (z - z0) * (r1 - r0)) / np.hypot(z1 - z0, r1 - r0)
 
     def describe(self) -> str:
@@ -176,13 +177,11 @@ def _edge_nodes(what: str, name: str, mesh: RawMesh) -> np.ndarray:
 
     Where it has corners of elements alone, with the mid-nodes of edges between them.
     """
-    names = {known.upper(): known for known in mesh.sets}
-    if name.upper() not in names:
+    found = [nodes for known, nodes in mesh.sets.items() if known.upper() == name.upper()]
+    if not found:
         raise ImportRefused(f"{what}: found no set '{name}'")
-    members = np.zeros(len(mesh.points), dtype=bool)
-    members[mesh.sets[names[name.upper()]]] = True
-    middle = np.zeros(len(members), dtype=bool)
-    between = np.zeros(len(members), dtype=bool)
+    members, middle, between = np.zeros((3, len(mesh.points)), dtype=bool)
+    members[found[-1]] = True
     for kind, nodes in mesh.blocks.items():
         for edge, middle_node in ELEMENTS[kind].edges.items():
             middle[nodes[:, middle_node]] = True

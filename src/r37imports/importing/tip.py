@@ -5,6 +5,7 @@ from scipy.spatial import cKDTree
 
 from r37core.blade.sense import LEAST, TipSense, sense_of_line
 from r37core.fem.surface import Faces, area_vectors, loops, nodes_of, smooth_patches
+from r37core.rom.recovery_nodes import cylinder
 from r37imports.placement import in_degrees, refuse_sense
 from r37imports.refusal import ImportRefused, warn_of
 
@@ -21,7 +22,7 @@ TipLines = dict[str, tuple[np.ndarray, np.ndarray]]
 def check_revolution(points: np.ndarray, tolerance: float) -> None:
     """Refuse a tip, nodes `points`, shape (n, 3), farther than `tolerance` (m) from every surface of revolution about z."""
     off = off_revolution(points)
-    worst = int(np.argmax(np.abs(off)))
+    worst = np.argmax(np.abs(off))
     if abs(off[worst]) > tolerance:
         raise ImportRefused(
             f"tip: no surface of revolution about the rotor axis: at z = {points[worst, 2]:.5g} m the radius "
@@ -36,7 +37,7 @@ def off_revolution(points: np.ndarray) -> np.ndarray:
 
     The meridian is fitted: radius as a parabola of z, a constant where the points have no axial length.
     """
-    radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    radius, _, z = cylinder(points)
     size = np.ptp(points, axis=0).max()
     degree = min(2, len(np.unique(np.round(z / (1e-3 * size)))) - 1) if np.ptp(z) > 0.02 * size else 0
     return radius - np.polynomial.Polynomial.fit(z, radius, degree)(z)
@@ -130,16 +131,15 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
     first, last = np.unravel_index(np.argmax(distance), distance.shape)
     if points[outline[first], 2] > points[outline[last], 2]:
         first, last = last, first
-    ends = points[outline[[first, last]]]
-    _check_downstream(ends[1] - ends[0])
+    chord = points[outline[last]] - points[outline[first]]
+    _check_downstream(chord)
     forth = np.roll(outline, -first)[: (last - first) % len(outline) + 1]
     back = np.roll(outline, -last)[: (first - last) % len(outline) + 1][::-1]
     spokes = points[outline] - points[outline].mean(axis=0)
-    area = float(0.5 * np.linalg.norm(np.sum(np.cross(spokes, np.roll(spokes, -1, axis=0)), axis=0)))
-    thickness = float(area / np.linalg.norm(ends[1] - ends[0]))
-    sides = [_between_corners(points, line, thickness) for line in (forth, back)]
-    sides.sort(key=lambda line: _middle_angle(points, line))
-    pressure, suction = sides if pressure_forward else sides[::-1]
+    area = 0.5 * np.linalg.norm(np.sum(np.cross(spokes, np.roll(spokes, -1, axis=0)), axis=0))
+    sides = [_between_corners(points, line, float(area / np.linalg.norm(chord))) for line in (forth, back)]
+    sides.sort(key=lambda line: _middle_angle(points, line), reverse=not pressure_forward)
+    pressure, suction = sides
     lines = {"tip_pressure_edge": pressure, "tip_suction_edge": suction}
     camber = _camber(points, nodes_of(faces), pressure, suction)
     return {name: (line, fractions_along(points[line])) for name, line in lines.items()} | {"tip_camber_line": camber}
@@ -173,8 +173,7 @@ def _between_corners(points: np.ndarray, line: np.ndarray, thickness: float) -> 
 
 
 def _middle_angle(points: np.ndarray, line: np.ndarray) -> float:
-    x, y, _ = _section_at(points[line], np.linspace(0.3, 0.7, 9)).T
-    return float(np.mean(np.arctan2(y, x)))
+    return cylinder(_section_at(points[line], np.linspace(0.3, 0.7, 9)))[1].mean()
 
 
 def arc_length(path: np.ndarray) -> np.ndarray:

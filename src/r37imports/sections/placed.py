@@ -12,6 +12,7 @@ from r37core.base.units import LENGTH_UNITS
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.sense import sense_of_line
 from r37core.fem.orientation import Orientation
+from r37core.rom.recovery_nodes import cylinder
 from r37imports.placement import check_place, fitting_units, refuse_sense
 from r37imports.refusal import ASKED, UNLESS, ImportRefused
 from r37imports.sections.definition import SectionsDefinition
@@ -49,8 +50,8 @@ def placed_sections(file: SectionFile, orientation: Orientation) -> tuple[Placed
 
 def placed_meridian(points: np.ndarray, orientation: Orientation) -> Meridians:
     """Meridian (z, r), m, of points in the file's unit and axes, shape (n, 3)."""
-    placed = orientation.points_to_blade(points)
-    return tuple((float(z), float(np.hypot(x, y))) for x, y, z in placed)
+    radius, _, z = cylinder(orientation.points_to_blade(points))
+    return tuple(zip(z.tolist(), radius.tolist(), strict=True))
 
 
 def meridian_along(points: Meridians, curves: Sequence[SectionCurve]) -> Meridians:
@@ -133,10 +134,9 @@ def fitting_unit(file: SectionFile, orientation: Orientation, stated: str) -> tu
     `orientation` has the unit of a metre.
     """
     points = np.concatenate([section.points for section in file.sections])
-    placed = orientation.points_to_blade(points)
-    radius = np.hypot(placed[:, 0], placed[:, 1])
+    radius, _, _ = cylinder(orientation.points_to_blade(points))
     # no program writes these
-    units = sorted(fitting_units(float(np.ptp(radius))), key=lambda unit: (unit != stated, unit in ("ft", "um")))
+    units = sorted(fitting_units(np.ptp(radius)), key=lambda unit: (unit != stated, unit in ("ft", "um")))
     if not units:
         reason = f"found '{ASKED}', and no unit that fits sections from {radius.min():.5g} to {radius.max():.5g} from the axis"
         raise ImportRefused(f"{reason}; give metres per unit", "length_unit")
@@ -195,5 +195,5 @@ def _meridian_of(curve: SectionCurve) -> tuple[np.ndarray, np.ndarray]:
 
 def _outwards(points: Sequence[np.ndarray]) -> list[int]:
     """Numbers of the sections as the file has them, backwards where they run from the tip to the hub."""
-    radii = [float(np.hypot(part[:, 0], part[:, 1]).mean()) for part in points]
+    radii = [cylinder(part)[0].mean() for part in points]
     return list(range(len(points)))[:: -1 if radii[0] > radii[-1] else 1]

@@ -74,9 +74,6 @@ def joined_sides(side: np.ndarray, other: np.ndarray) -> np.ndarray:
     return closed(np.concatenate([side, back]))
 
 
-_COLUMNS = ("section", "x", "y", "z")
-
-
 def read_table(text: str) -> SectionFile:
     """Sections of a table (CSV), in the order of their first rows. Raises TextFileError.
 
@@ -88,7 +85,7 @@ def read_table(text: str) -> SectionFile:
     rows = table_rows(text)
     first, header = next(rows, (1, []))
     header = [title.lower() for title in header]
-    if missing := [column for column in _COLUMNS if column not in header]:
+    if missing := [column for column in ("section", "x", "y", "z") if column not in header]:
         lacking = f"the table lacks the columns {', '.join(missing)}"
         raise TextFileError(first, f"{lacking}; needed: section, x, y, z, separated by commas")
     for line, cells in rows:
