@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 import xarray as xr
 import yaml
+from refusal_tables import pattern_of, refusal_rows
 from workflow_runs import copy_finished, copy_project, own_package
 
 import r37
@@ -152,97 +153,12 @@ def test_blades_of_other_programs(root, config, tmp_path, monkeypatch):
     np.testing.assert_allclose(ours["rms_normal"], shipped["rms_normal"], rtol=1e-6)
 
 
-def call(function, /, *arguments, **named):
-    """A call of r37 that is to be refused."""
-    return lambda: getattr(r37, function)(*arguments, **named)
-
-
-def scene(**changes):
-    return call("scene", "direct", **changes)
-
-
-def simulate(*speed, **named):
-    return call("simulate", "Ref", "direct", *speed, **named)
-
-
-def run(blades="Ref", scenes="direct", **sections):
-    return call("run", blades, scenes, [9], **sections)
-
-
-REFUSED = {
-    r"blade: found 'cs10'; allowed: Ref, L50, L100, .* \(did you mean CS100\?\)": call("campbell", "cs10"),
-    r"blade: found \['Ref'\]; allowed: the name": call("campbell", ["Ref"]),
-    r"r37.campbell: fidelity: found 'drft'; allowed: .* \(did you mean draft\?\)": call("campbell", "Ref", fidelity="drft"),
-    "config: found missing.yaml": call("campbell", "Ref", config="missing.yaml"),
-    "file: found missing.yaml": call("blade", "Ref", file="missing.yaml"),
-    "name: found 3; allowed: a name": call("blade", "Ref", name=3),
-    "name: found 'CS50', which .* has; allowed: another name": call("blade", "Ref", name="CS50"),
-    "changed blade: found 'X'; allowed: Ref": call("blade", "X", sweep_percent=5),
-    r"name_of_entry: found \['direct'\]; allowed: a name": call("scene", ["direct"]),
-    r'r37.scene\("direct"\): .*unknown key lining_m': scene(lining_m=1),
-    r'r37\.scene\("direct"\): direct: found unknown key linning; .* \(did you mean lining\?\)': scene(linning=None),
-    r'r37.scene\("direct"\): direct.friction.coefficient: found -1': scene(**{"friction.coefficient": -1}),
-    r"direct.friction: found 0.2; allowed: mapping with the keys ": scene(friction=0.2),
-    "abradable.results: found wear; allowed: only in a scene with a lining": call("scene", "abradable", lining=None),
-    r"direct\.rotor: missing key blades": scene(**{"rotor.blades": None}),
-    "found the key 1 twice, as a number and a text": scene(rotor={"blades": 3, "longer_m": {1: 1e-5, "1": 2e-5}}),
-    r"found the key \(1, 2\); allowed: a name or a whole number": scene(rotor={"blades": 3, "longer_m": {(1, 2): 1e-5}}),
-    r"scene: found 'dirct'; allowed: abradable, .* \(did you mean direct\?\)": call("simulate", "Ref", "dirct", 1000),
-    "scene: found None; allowed: the name of a scene": call("simulate", "Ref", None, 1200),
-    "r37.simulate: speed: found -5; allowed: number, at least 0.001": simulate(-5),
-    "speed: found 'fast'; allowed: one number, in rad/s": simulate("fast"),
-    r"speed: found \[1, 2\]; allowed: one number, in rad/s": simulate([1, 2]),
-    "speed: found <xarray.Dataset>.*; allowed: one number, in rad/s": simulate(xr.Dataset()),
-    "r37.simulate: speed_rpm: found 0; allowed: number, at least 0.01": simulate(speed_rpm=0),
-    "speed: found both; allowed: speed, in rad/s, or speed_rpm": simulate(1, speed_rpm=10),
-    "results: found 3; allowed: a list of names": simulate(1200, results=3),
-    r'results: found .stress.; allowed: a list of names, as in results=\["stress"\]': simulate(9, results="stress"),
-    "results: found wear": simulate(9, results=["wear"]),
-    "r37.sweep: speeds: found 5 rad/s twice": call("sweep", "Ref", "direct", [5, {"start": 4, "stop": 5, "step": 1}]),
-    "speeds: found .*; allowed: .* at least 1": call("sweep", "Ref", "direct", []),
-    "speeds: found '1700'; allowed: one number": call("sweep", "Ref", "direct", ["1700"]),
-    r"speeds\.stop: found '9'; allowed: one number": call("sweep", "Ref", "direct", {"start": 1, "stop": "9", "step": 1}),
-    "speeds: found more than 100000 values": call("sweep", "Ref", "direct", count(1000)),
-    "speeds: found neither; allowed: speeds, in rad/s, or speeds_rpm": call("sweep", "Ref", "direct"),
-    r"r37.sweep: speeds.0: found unknown key stpo; .* \(did you mean stop\?\)": call(
-        "sweep", "Ref", "direct", {"start": 1, "stpo": 9}
-    ),
-    "speeds: found b'Ref'; allowed: a list": call("sweep", "Ref", "direct", b"Ref"),
-    "cores: found 0; allowed: a whole": call("sweep", "Ref", "direct", [9], cores=0),
-    r'blades: found Ref, chordwise_sweep_deg=5; allowed: names that differ, as of r37.blade\("Ref", ..., name="Mine"\)': (
-        lambda: r37.run(["Ref", r37.blade("Ref", chordwise_sweep_deg=5)], "direct", [9])
-    ),
-    "blade: found 3; allowed: the name of a blade, or what r37.blade gives": run(3),
-    "blades: found none": run([]),
-    "scenes: found none": run(scenes=[]),
-    "results: found signal; allowed: only in a scene without rotor": call(
-        "scene", "abradable", rotor={"blades": 2}, results=["signal"]
-    ),
-    "vary: found .*50.*; allowed: mapping": call("blade", "S100", vary=[50], name="Some"),
-    "Some_90.stagger_deg: blade Some_90: stagger_deg: span 0%: inlet_angle is 143": call(
-        "blade", "Ref", vary={"stagger_deg": [0, 90]}, name="Some"
-    ),
-    "blade: found the family Some; allowed: a blade, such as Some_50": lambda: r37.campbell(
-        r37.blade("S100", vary={"sweep_percent": [50]}, name="Some")
-    ),
-    "r37.run: tolerances.of_scenes.friction: found friction; allowed: a number of the scenes": run(
-        tolerances={"of_scenes": {"friction": {"uniform_percent": 5}}}
-    ),
-    "init: found None; allowed: a folder": call("init", None),
-    "campbell: found a dataset without frequency; allowed: what r37.campbell gives": call("plot_campbell", xr.Dataset()),
-    "response: found a NoneType; allowed: what r37.sweep gives": call("plot_response", None),
-    "rotor: found several runs; allowed: one, as results.rotor": call("plot_rotor", xr.Dataset({"blade_rms": ("run", [1.0])})),
-    "results: found none of tolerances; allowed: those of r37.run": call("plot_tolerances", None, "Ref", "direct"),
-    "results: found none of designs; allowed: those of a run with a family": call("plot_designs", 3),
-}
-"""Message -> a call of the shipped configuration that ends in it."""
-
-
-@pytest.mark.parametrize("message", REFUSED)
-def test_bad_input_has_one_clear_message(root, monkeypatch, message):
+@pytest.mark.parametrize(("kind", "call", "message"), refusal_rows(Path(__file__).with_name("refusals.txt"), "calls"))
+def test_bad_input_has_one_clear_message(root, monkeypatch, kind, call, message):
+    """Of calls of the shipped configuration."""
     monkeypatch.setattr("r37.call_configuration._PACKAGE", root)
-    with pytest.raises(r37.ConfigError, match=message) as caught:
-        REFUSED[message]()
+    with pytest.raises(r37.ConfigError, match=pattern_of(message)) as caught:
+        eval(call, {"r37": r37, "xr": xr, "count": count})
     assert "\n" not in str(caught.value)
 
 

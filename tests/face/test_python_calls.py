@@ -156,15 +156,6 @@ def test_a_material_of_other_units_is_told(finished, monkeypatch, key, value, to
         r37.simulate(r37.blade("Ref", **{f"material.{key}": value}), "abradable", 1500)
 
 
-def test_rpm_taken_for_rad_s_are_refused():
-    """The remedy is named where the number may be in rpm."""
-    found = r"found 17188 rad/s; allowed: up to 4000 rad/s, 2 times structure\.maximum_speed_rad_s"
-    with pytest.raises(r37.ConfigError, match=f"speeds: {found}; rpm stand under speeds_rpm$"):
-        r37.simulate("Ref", "abradable", 17188)
-    with pytest.raises(r37.ConfigError, match=f"speeds_rpm: {found.replace('17188', '6283.19')}; rpm"):
-        r37.sweep("Ref", "abradable", speeds_rpm=[60000])
-
-
 def test_speeds_beyond_the_models_are_told(finished, monkeypatch):
     """Before anything is computed."""
     monkeypatch.setattr("r37.simulations.response_file", None)

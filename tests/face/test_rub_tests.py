@@ -1,11 +1,14 @@
 """Contact length and moduli of a lining from the forces of a rub rig."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import contact_laws
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
+from refusal_tables import pattern_of, refusal_rows
 
 import r37
 from r37core.config import ConfigError
@@ -18,6 +21,7 @@ HIDDEN = Lining(2e-3, 2e9, 6e8, 2e7, contact_length=3e-4)
 TRUE = {"elastic_modulus_pa": 2e9, "plastic_modulus_pa": 6e8, "yield_stress_pa": 2e7, "tangent_modulus_pa": 6e8 / 1.3}
 WIDTH, RAMP = 0.01, np.linspace(5e-6, 2e-4, 40)
 RIG = {"width_m": WIDTH, "thickness_m": 2e-3}
+TABLE = Path(__file__).with_name("refusals.txt")
 
 
 def rig_forces(depths, lining):
@@ -138,39 +142,15 @@ def test_a_table_has_the_separator_of_its_header(tmp_path):
     assert of_file == pytest.approx(of_columns, rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("", "found no header; allowed: a CSV with a header"),
-        ("depth_mm,force_n\n0,1,3,4\n0,2,5,6", "more cells than the header; allowed: as many, and decimal points"),
-        (
-            "depth_mm,force_kgf\n.1,3\n.2,5",
-            "found force_kgf, without a known unit in the header 'depth_mm, force_kgf'; .*force n, kn, lbf;",
-        ),
-        ("depth_mm,load\n.1,3\n.2,5", "found no force in the header 'depth_mm, load'; allowed: depth m, cm, mm"),
-        ("depth_mm,force_n,uncertanty_n\n.1,3,1\n.2,5,1", r"uncertanty_n \(did you mean uncertainty\?\)"),
-        ("depth_mm,force_n,thickness_mm\n.1,3,2\n.2,5,2", "thickness_mm, given twice"),
-        ("depth_mm,force_n\n.1,3\n# remark\n.2,nan\n.3,5", "point 2: force_n: found nan; allowed: a number"),
-        ("depth_mm,force_n,speed_m_s\n.1,3,0\n.2,5,9", "point 1: speed_m_s: found 0; allowed: a number, more than 0"),
-        ("depth_m,force_n\n.1,3\n.2,5", "point 1: depth: found 0.1; allowed: at most the thickness"),
-        ("depth_mm,force_n\n.1,-3\n.2,-5", "2 points with a depth above 0 and a mean force of -4 N; allowed: .*positive"),
-    ],
-)
-def test_a_table_that_fits_nothing_is_refused(tmp_path, text, message):
+@pytest.mark.parametrize(("kind", "text", "message"), refusal_rows(TABLE, "rub tests"))
+def test_a_table_that_fits_nothing_is_refused(tmp_path, kind, text, message):
     file = tmp_path / "rig.csv"
-    file.write_text(text)
-    with pytest.raises(r37.ConfigError, match=f"^{file}: .*{message}"):
+    file.write_text(text.replace(" / ", "\n"))
+    with pytest.raises(r37.ConfigError, match=f"^{file}: .*{pattern_of(message)}"):
         r37.lining_from_rub_test(file, **RIG)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"width_m": -1}, "width_m: found -1; allowed: more than 0"),
-        ({"scene": "direct"}, "scene: found one without a contact length of its lining"),
-        ({"thickness_m": None}, "table: found no thickness in the header"),
-    ],
-)
-def test_arguments_that_fit_nothing_are_refused(arguments, message):
-    with pytest.raises(r37.ConfigError, match=message):
-        r37.lining_from_rub_test(pd.DataFrame({"depth_mm": [0.1, 0.2], "force_n": [40, 81]}), **(RIG | arguments))
+@pytest.mark.parametrize(("kind", "arguments", "message"), refusal_rows(TABLE, "arguments of a rub test"))
+def test_arguments_that_fit_nothing_are_refused(kind, arguments, message):
+    with pytest.raises(r37.ConfigError, match=pattern_of(message)):
+        r37.lining_from_rub_test({"depth_mm": [0.1, 0.2], "force_n": [40, 81]}, **(RIG | yaml.safe_load(arguments)))

@@ -6,10 +6,13 @@ import signal
 import subprocess
 import sys
 from contextlib import suppress
+from pathlib import Path
 
 import pandas as pd
 import pytest
 import xarray as xr
+import yaml
+from refusal_tables import pattern_of, refusal_rows
 from workflow_runs import LONGEST, digests, snakemake, wait_until
 
 import r37
@@ -98,25 +101,10 @@ def test_a_failed_job_raises_what_it_raised(config, tmp_path):
     assert "details in logs/Thick/geometry.log" in raised.value.__notes__[0]
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"targets": "nothing"}, "targets: No rule to produce nothing"),
-        ({"targets": "--unlock"}, r"targets: found '--unlock'; allowed: names of rules or files"),
-        ({"targets": []}, r"targets: found \[\]"),
-        ({"interaction": {}}, r"r37.run: top level: found unknown key interaction; .*did you mean interactions"),
-        ({"interactions": {"prominence": 7}}, "r37.run: interactions.prominence: found 7; allowed"),
-        ({"run_ups": {}, "targets": "run_ups"}, "run_ups: found the target run_ups and none of the blades"),
-        ({"blades_file": "mine.yaml"}, r"^blades_file: found 'mine.yaml'; allowed: config=, .* r37\.blade\(name, "),
-        ({"blades": None, "blades_file": ""}, "^blades_file: found ''; allowed: config="),
-        ({"scenes_file": []}, r"^scenes_file: found \[\]; allowed: config=, .* r37\.scene\(name, file=\.\.\.\)$"),
-        ({"folder": 3}, "folder: found 3; allowed: a folder that is new, empty, or of an earlier call"),
-        ({"cores": 0}, "cores: found 0"),
-    ],
-)
-def test_what_cannot_be_run_is_refused(config, changes, message):
-    with pytest.raises(r37.ConfigError, match=message):
-        r37.run(**{**ASKED, "config": config, **changes})
+@pytest.mark.parametrize(("kind", "changes", "message"), refusal_rows(Path(__file__).with_name("refusals.txt"), "runs"))
+def test_what_cannot_be_run_is_refused(config, kind, changes, message):
+    with pytest.raises(r37.ConfigError, match=pattern_of(message)):
+        r37.run(**{**ASKED, "config": config, **yaml.safe_load(changes)})
 
 
 def test_a_folder_with_something_else_stays_as_it_is(config, tmp_path):

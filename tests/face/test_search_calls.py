@@ -2,12 +2,14 @@
 
 import re
 import sys
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
 import yaml
+from refusal_tables import pattern_of, refusal_rows
 from workflow_runs import copy_finished, kill_snakemake, overlay, planned_outputs, snakemake
 
 import r37
@@ -98,17 +100,10 @@ def test_a_design_of_a_scene_is_that_scene(config):
     assert value != pytest.approx(search["objective_value"].sel(design="start").item(), rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"variables": ["stagger_deg"]}, r"variables: found \['stagger_deg'\]; allowed: mapping of names, .* list of number"),
-        ({"variables": {"stagger_deg.tip": [2, -2]}}, "variables.stagger_deg.tip: found .*a lower and a h"),
-        ({"objectives": {"lined": {"scenes": ["direct"]}}}, "objectives.lined.scenes: found 'direct'"),
-    ],
-)
-def test_what_cannot_be_searched_is_told(config, changes, message):
-    with pytest.raises(r37.ConfigError, match=f"r37.run: search.{message}"):
-        r37.run("Ref", "abradable", SPEEDS, search={**SEARCH, **changes}, config=config)
+@pytest.mark.parametrize(("kind", "changes", "message"), refusal_rows(Path(__file__).with_name("refusals.txt"), "searches"))
+def test_what_cannot_be_searched_is_told(config, kind, changes, message):
+    with pytest.raises(r37.ConfigError, match=pattern_of(message)):
+        r37.run("Ref", "abradable", SPEEDS, search={**SEARCH, **yaml.safe_load(changes)}, config=config)
 
 
 def test_the_missing_package_is_named_in_one_line(config, monkeypatch):

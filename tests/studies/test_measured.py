@@ -1,11 +1,14 @@
 """Measurements: files, what a run says at their points, and the comparison."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 from conftest import CONFIGURATION
+from refusal_tables import pattern_of, refusal_rows
 
 from r37core.config import ConfigError, Document
 from r37core.product.extensions import load_settings
@@ -19,6 +22,7 @@ from r37studies.measured.section import MeasurementError, MeasurementSection
 from r37studies.measured.steps import compared
 
 READING = MeasurementSection(file="f", blade="A", scene="s", quantity="displacement_normal", uncertainty_percent=5)
+TABLE = Path(__file__).with_name("refusals.txt")
 
 
 def reading(**keys):
@@ -89,32 +93,11 @@ def test_of_a_hundred_thousand_points_some_are_run_the_largest_among_them(read):
     assert len(points.values) <= MOST_SPEEDS + 1 and max(points.values) == pytest.approx(2.0)
 
 
-@pytest.mark.parametrize(
-    "text, entry, told",
-    [
-        ("speed_rad_s,a\n1,1\n", READING, r"no column of displacement_normal.*a \(no number\)"),
-        ("speed,a_m\n1,1\n", READING, "no column with a speed, in rad/s or rpm"),
-        ("speed_rad_s,a_m\n1,x\n", READING, "found 'x' under a_m, in row 1"),
-        ("speed_rad_s,a_m\n1,-1\n", READING, "found displacement_normal -1; allowed: 0 or more"),
-        ("speed_rad_s,a_m\n0,1\n", READING, "a speed of 0 rad/s"),
-        ("speed_rad_s,a_m\n,\n", READING, "no row with all numbers"),
-        ("speed_rad_s,a_m\n1,0\n", READING, "values that are all 0"),
-        ("speed_rad_s,a_m\n1,1\n", reading(uncertainty_percent=None), "neither it nor a column 'uncertainty'"),
-        ("speed_rad_s,a_m,sigma_m\n1,1,0\n", READING, "above 0, a standard deviation"),
-        ("speed_rad_s,a_m\n1,1\n", reading(rows={"blade": "A"}), "no column 'blade'"),
-        ("speed_rad_s,a_m,speed_error_rad_s\n1,1,2\n", reading(uncertainty_percent=None), "neither it nor a column"),
-        ("blade,speed_rad_s,a_m\nFan,1,1\n", READING, "found rows of the blade 'Fan'; allowed: those of "),
-        ("speed_rad_s,angle_deg,d_m\n1,0,1\n2,0,1\n", reading(quantity="worn_depth"), "over angles at 2 speeds"),
-        (
-            "speed_rad_s,a_m\n1,1\n2,2\n",
-            reading(speed_of="first_above", limit=3.0),
-            "values from 1 to 2; allowed: a first_above",
-        ),
-    ],
-)
-def test_a_file_that_fits_nothing_says_what_would(read, text, entry, told):
-    with pytest.raises(MeasurementError, match=told):
-        read(text, entry)
+@pytest.mark.parametrize(("kind", "snippet", "message"), refusal_rows(TABLE, "files of measurements"))
+def test_a_file_that_fits_nothing_says_what_would(read, kind, snippet, message):
+    entry, _, text = snippet.partition(" / ")
+    with pytest.raises(MeasurementError, match=pattern_of(message)):
+        read(text.replace(" / ", "\n") + "\n", reading(**yaml.safe_load(entry)))
 
 
 def test_feature_speed_a_limit_lies_anywhere_between_two_speeds(read):
@@ -184,34 +167,11 @@ def test_amplitudes_of_a_signal_survive_a_tachometers_noise_and_a_rising_speed(r
     assert min(points.speeds) == pytest.approx(1089.0, rel=0.005) and "coherence 1.00" in points.remark
 
 
-@pytest.mark.parametrize(
-    "text, entry, told",
-    [
-        # a speed that is 0.2% too high
-        ("time_s,tip_um\n" + signal_rows(1089.0 * TIMES, TIMES), reading(speed_rad_s=1091.2), "drift .* were 0.99[78]"),
-        ("time_s,tip_um\n" + signal_rows(1089.0 * TIMES, TIMES), reading(speed_rad_s=1.0), "rows a revolution|revolutions"),
-        ("time_s,n_rpm,a_um\n0,9000,1\n0,9100,2\n", READING, "a time that stands in several rows"),
-        ("time_s,n_rpm,a_um\n0,9000,1\n2,9001,2\n", READING, "rows a revolution at one speed"),
-        ("time_s,p,a_um\n0,0,1\n1,1,2\n", reading(columns={"key_phasor": "p"}), "1 passages of a key phasor"),
-        ("p,a_um\n0,1\n", reading(columns={"key_phasor": "p"}), "no column of times"),
-        ("n_rpm,a_um\n9000,1\n", reading(columns={"key_phasor": "p"}), "no column 'p'"),
-        ("n_rpm,m_rpm,a_um\n9000,1,1\n", READING, "2 columns with a speed"),
-        ("n_rpm,a_um\n9000,1\n", reading(speed_rad_s=5.0), "beside the column n_rpm; allowed: one of them"),
-        ("frequency (Hz),a_um\n9000,1\n", READING, "frequencies, .*, and no speed"),
-        ("f (Hz),a_um\n173.5,1\n", reading(speed_rpm=20820 / 3), "no line near an engine order"),
-        ("n_rpm,a_um\n9,1\n10,2\n11,3\n10,4\n9,5\n", READING, "a sweep up and one down"),
-        ("angle (turns),a_um\n0,1\n1,2\n", WORN, "differ in 'angle .turns.', which is not read"),
-        ("n_rpm,a_um\n9,1e308\n", READING, "found '1e308'"),
-        ("n_rpm,a_um\n9,1\n10,2\n11,3\n10,4\n9,5\n10,6\n11,7\n", READING, "sweeps up, down, up"),
-        ("n_rpm,gauge,a_um\n9,A,1\n9,B,2\n", READING, r"differ in 'gauge', .* rows: { gauge: ... }"),
-        ("n_rpm,frequency (Hz),a_um\n9,1,1\n9,2,2\n", READING, "differ in 'frequency .Hz.'"),
-        ("f (Hz),a_um\n9,1\n10,2\n", READING, "frequencies, f .Hz., and no speed"),
-        ("n_rpm;a_um\n9,400;1,250\n", READING, "line 2: 9,400 may be 9.400 or 9400: write points"),
-    ],
-)
-def test_a_signal_that_tells_nothing_says_what_would(read, text, entry, told):
+# a speed that is 0.2% too high, and one of a fan
+@pytest.mark.parametrize("speed, told", [(1091.2, "drift .* were 0.99[78]"), (1.0, "rows a revolution|revolutions")])
+def test_a_signal_that_tells_nothing_says_what_would(read, speed, told):
     with pytest.raises(MeasurementError, match=told):
-        read(text, entry)
+        read("time_s,tip_um\n" + signal_rows(1089.0 * TIMES, TIMES), reading(speed_rad_s=speed))
 
 
 @pytest.mark.parametrize(
@@ -318,25 +278,10 @@ def test_a_gauge_is_that_of_the_signals(tmp_path):
     assert measured.unit == "1" and measured.title.startswith("strain at chord 0.5, span 0.3, pressure side")
 
 
-REFUSED = [
-    ({"blade": "Nobody"}, r"measured.0.blade: found 'Nobody'; allowed: one that is run \(Ref\)"),
-    ({"scene": "nowhere"}, r"measured.0.scene: found 'nowhere'; allowed: one that is run"),
-    ({"scene": "rotor_abradable"}, "measured.0.scene: found 'rotor_abradable', a rotor"),
-    ({"scene": "direct", "quantity": "worn_depth"}, "worn_depth in 'direct', without lining"),
-    ({"quantity": "strain", "gauge": "G1"}, r"found 'G1'; allowed: one of signals.gauges \(none\), or a place"),
-    ({"quantity": "strain"}, "strain without gauge; allowed: gauge beside it"),
-    ({"probe_deg": 10.0}, "displacement_normal with probe_deg; allowed: probe_deg left out"),
-    ({"speed_of": "first_above"}, "first_above without a limit"),
-    ({"statistic": "order", "engine_order": 1000}, "found 1000; allowed: up to half of the .* samples of a revolution"),
-    ({"gain": {"normal": 0.1}}, "a gain and no calibrate"),
-    ({"file": "/nowhere/tip.csv"}, "measured.0.file: /nowhere/tip.csv: .*allowed: a CSV with a header"),
-]
-
-
-@pytest.mark.parametrize("entry, told", REFUSED)
-def test_a_measurement_that_fits_nothing_is_refused(tmp_path, entry, told):
-    with pytest.raises(ConfigError, match=told):
-        configured(tmp_path, [entry])
+@pytest.mark.parametrize(("kind", "entry", "message"), refusal_rows(TABLE, "measured"))
+def test_a_measurement_that_fits_nothing_is_refused(tmp_path, kind, entry, message):
+    with pytest.raises(ConfigError, match=pattern_of(message)):
+        configured(tmp_path, [yaml.safe_load(entry)])
 
 
 def test_rpm_taken_for_rad_s_are_refused(tmp_path):
@@ -375,18 +320,7 @@ def test_a_speed_without_a_curve_is_compared_with_the_sweep_about_it(tmp_path):
         configured(tmp_path, [{"speed_of": "peak"}], text)
 
 
-FRICTION = {"of_scenes": {"friction.coefficient": {"between": [0.05, 0.3]}}}
-
-
-@pytest.mark.parametrize(
-    "measured, calibrate, told",
-    [
-        ([], FRICTION, "calibrate: found no measurement; allowed: measured"),
-        ([{}], {}, "no number; allowed: some under of_scenes"),
-        ([{}], {"of_scenes": {"casing.clearance_m": {"between": [-1.0, 1e-3]}}}, "at the end of its range: "),
-        ([{}], {**FRICTION, "runs": 16, "first": 12}, r"found 12; allowed: at most half of runs \(16\)"),
-    ],
-)
-def test_a_calibration_that_cannot_be_done_is_refused(tmp_path, measured, calibrate, told):
-    with pytest.raises(ConfigError, match=told):
-        configured(tmp_path, measured, calibrate=calibrate)
+@pytest.mark.parametrize(("kind", "sections", "message"), refusal_rows(TABLE, "calibrations"))
+def test_a_calibration_that_cannot_be_done_is_refused(tmp_path, kind, sections, message):
+    with pytest.raises(ConfigError, match=pattern_of(message)):
+        configured(tmp_path, **{"measured": [{}]} | yaml.safe_load(sections))

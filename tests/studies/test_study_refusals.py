@@ -10,7 +10,7 @@ from workflow_runs import overlay
 from r37core.config import ConfigError, command_line_document, read_document
 from r37core.product.extensions import read_settings
 
-ROWS = refusal_rows(Path(__file__).with_name("refusals.txt"))
+ROWS = refusal_rows(Path(__file__).with_name("refusals.txt"), "config", "blades", "scenes", "search")
 
 
 @pytest.mark.parametrize(("kind", "snippet", "message"), ROWS)

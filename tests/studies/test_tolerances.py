@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -10,6 +11,7 @@ import xarray as xr
 import yaml
 from defaults import InteractionChoice
 from matplotlib.colors import to_rgb
+from refusal_tables import pattern_of, refusal_rows
 from test_interactions import campbell, response, stresses
 
 from r37core.adaptive.criterion import RefinementChoice, next_speeds
@@ -211,29 +213,10 @@ def test_a_run_says_which_numbers_its_members_do_not_rank(root, members, spread,
     assert not any("rank" in one for one in remarks_of(settings_of(root, alone)))
 
 
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        ({"members": 12}, "tolerances.members: found 12; allowed: a power of two, such as 8 or 16"),
-        ({"of_scenes": {"friction.coeficient": {"uniform": 0.1}}}, "found friction.coeficient; allowed: a number of the"),
-        ({"of_scenes": {"friction.coefficient": {}}}, "found nothing; allowed: one of uniform_percent"),
-        ({"of_scenes": {"friction.coefficient": {"between": [0.2, 0.1]}}}, "a lower and a higher number"),
-        ({"of_scenes": {"friction.coefficient": {"normal": 0.2}}}, r"member \d+ of Ref in abradable: found -.*at least 0.*na"),
-        ({"of_blades": {"thickness": {"uniform": 1.0}}}, "found thickness; allowed: one of material.youngs_modulus_pa"),
-        ({"of_blades": {"lean_deg": {"uniform_percent": 1.0}}}, "percent of lean_deg, which is 0"),
-        ({"of_blades": {"thickness_percent": {"uniform": 150.0}}}, r"thickness_percent: the end of its range of Ref.*least 10"),
-        ({"of_blades": {"stagger_deg.hub": {"uniform": 45.0}}}, "the end of its range of Ref in abradable: span 0%: inlet"),
-        ({"of_scenes": {"friction.coefficient": {"between": [0.0, 11.0]}}, "members": 2}, "the end of its range.*at most 10"),
-        ({"of_scenes": {"divergence_limit_m": {"uniform": 1e-3}}}, "allowed: a number of the scenes"),
-        ({"of_blades": {"sweep_percent": {"uniform": 1.0}}, "blades": ["Ref"]}, r"none of its numbers \(sweep_percent\) in"),
-        ({"members": 4}, "tolerances: found no numbers; allowed: some under of_scenes or of_blades"),
-        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["Rex"]}, "found 'Rex'"),
-        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "members": 4096}, "simulations of members"),
-    ],
-)
-def test_what_cannot_be_is_refused_before_the_sweep(root, content, message):
-    with pytest.raises(ConfigError, match=message):
-        settings_of(root, content)
+@pytest.mark.parametrize(("kind", "content", "message"), refusal_rows(Path(__file__).with_name("refusals.txt"), "tolerances"))
+def test_what_cannot_be_is_refused_before_the_sweep(root, kind, content, message):
+    with pytest.raises(ConfigError, match=pattern_of(message)):
+        settings_of(root, yaml.safe_load(content))
 
 
 def test_a_blade_or_scene_without_any_of_the_numbers_has_no_members(root):
