@@ -6,11 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from box_mesh import TITANIUM
 from defaults import BoundaryChoice, Casing, IntegrationChoice
 from import_defaults import refused
 from integration_cases import ABRADABLE, DIRECT
 from integration_runs import whole_run
+from refusal_tables import pattern_of, refusal_rows
 
 from r37core.fem.matrices import assemble
 from r37core.fem.orientation import Orientation
@@ -23,7 +25,6 @@ from r37core.rom.reduction_choice import ReductionChoice
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37imports.importing.import_mesh import import_mesh
 from r37imports.importing.source import CyclicFaces, MeshSource, Where
-from r37imports.refusal import ImportRefused
 
 EXAMPLE = Path(__file__).parents[2] / "examples/blisk"
 AXES = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
@@ -70,30 +71,17 @@ def test_faces_are_paired(sector, file, cyclic, tmp_path):
     np.testing.assert_array_equal(read_vtu(tmp_path / "mesh.vtu").cyclic, mesh.cyclic[np.argsort(mesh.cyclic[:, 0])])
 
 
-@pytest.mark.parametrize(
-    ("changes", "cyclic", "key", "message"),
-    [
-        (
-            {},
-            {"sectors": 13},
-            "cyclic",
-            r"turned by 27\.6923 degrees no face of the mesh lies on another \(nearest .* mm; allowed",
-        ),
-        (
-            {},
-            {"sectors": 13, "low": "low", "high": "high"},
-            "cyclic",
-            r"'low' \(\d+ nodes\) .* do not match \(largest distance",
-        ),
-        ({}, {"low": "low", "high": "bore"}, "cyclic", r"\d+ nodes are in both faces"),
-        ({}, {"low": "left", "high": "high"}, "cyclic", r"cyclic: low: found no set 'left'"),
-        ({"root": Where(("low",)), "end_check": False}, {}, "root", r"have one clamped node .* such as the bore"),
-    ],
-)
-def test_what_is_refused(file, changes, cyclic, key, message):
-    with refused(rf"sector\.msh: .*{message}") as caught:
-        import_mesh(replace(BLISK, cyclic=CyclicFaces(**{"sectors": SECTORS} | cyclic), **changes), file)
-    assert caught.type is ImportRefused and caught.value.key == key
+@pytest.mark.parametrize(("kind", "cyclic", "message"), refusal_rows(Path(__file__).with_name("refusals.txt"), "cyclic"))
+def test_faces_that_do_not_match_are_refused(file, kind, cyclic, message):
+    with refused(rf"sector\.msh: .*{pattern_of(message)}") as caught:
+        import_mesh(replace(BLISK, cyclic=CyclicFaces(**{"sectors": SECTORS} | yaml.safe_load(cyclic))), file)
+    assert caught.value.key == "cyclic"
+
+
+def test_a_root_ends_alike_at_both_faces(file):
+    with refused(r"sector\.msh: .*have one clamped node .* such as the bore") as caught:
+        import_mesh(replace(BLISK, cyclic=CyclicFaces(SECTORS), root=Where(("low",)), end_check=False), file)
+    assert caught.value.key == "root"
 
 
 def test_frequencies_have_nodal_diameters(model, tmp_path):

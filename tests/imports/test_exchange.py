@@ -396,39 +396,6 @@ def tip_faces(mesh):
     return np.concatenate([part.nodes for part in chosen(surface, mask_within(surface, members))])
 
 
-def moved(text, node, x):
-    """The deck with one coordinate of a node changed."""
-    start = text.index(f"\n{node}, ") + 1
-    return text[:start] + f"{node}, {x}, " + text[start:].split(", ", 2)[2]
-
-
-def renumbered(text, element, other):
-    """The deck with one element under another number."""
-    nodes, elements = text.split("ELSET=BLADE\n")
-    return nodes + "ELSET=BLADE\n" + elements.replace(f"\n{element}, ", f"\n{other}, ", 1)
-
-
-def second_part(text):
-    """The deck with its nodes and elements once more, under other numbers."""
-    nodes, elements = re.search(r"NSET=ALL_NODES\n(.*?)\*ELEMENT[^\n]*\n(.*?)\*NSET", text, re.DOTALL).groups()
-    nodes = re.sub(r"(?m)^\d+", lambda number: f"{int(number[0]) + 5000}", nodes)
-    elements = re.sub(r"\d+", lambda number: f"{int(number[0]) + 5000}", elements)
-    return text.replace("*MATERIAL", f"*NODE\n{nodes}*ELEMENT, TYPE=C3D20\n{elements}*MATERIAL")
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (second_part, r"2 parts that share no node .* nodes lie on others: merge them"),
-        (lambda text: moved(text, 100, "0.5"), r"mid-nodes off their edges in .* edge lengths|inside out or folded"),
-        (lambda text: renumbered(text, 2, 1), "element 1 is given twice, and not alike"),
-    ],
-)
-def test_unsuitable_decks_are_refused(tmp_path, change, message):
-    with refused(rf"mesh\.inp: .*({message})"):
-        import_mesh(source(deck(tmp_path, change)))
-
-
 def test_an_instance_stands_where_its_assembly_puts_it(tmp_path):
     def assembled(text):
         # a part that is shifted by 5 along y and turned by 90 degrees about an axis along x through (0, 5, 1)
