@@ -31,36 +31,26 @@ AXES = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
 BLISK = MeshSource("sector.msh", AXES, Where(("bore",)), Where(("tip",)), hub_zr=((-0.1, 0.17), (0.1, 0.17)), sense_check=False)
 
 
-def mesh_sector(file, sectors, size=0.014):
-    """Write the mesh of the example's sector, coarse."""
-    runpy.run_path(str(EXAMPLE / "sector.py"))["mesh_sector"](str(file), sectors, size)
-
-
-def blisk(folder, sectors, **cyclic):
-    """The example's sector as it is imported."""
-    mesh_sector(folder / "sector.msh", sectors)
-    return import_mesh(replace(BLISK, cyclic=CyclicFaces(sectors, **cyclic)), folder)[0]
-
-
 SECTORS = 12
 BOUNDARY, REDUCTION = BoundaryChoice(nodes=4), ReductionChoice((0.0, 750.0, 1500.0), 6)
 
 
 @pytest.fixture(scope="module")
-def sector(tmp_path_factory):
-    return blisk(tmp_path_factory.mktemp("blisk"), SECTORS)
+def file(tmp_path_factory):
+    """The folder with the mesh of the example's sector, coarse."""
+    folder = tmp_path_factory.mktemp("blisk")
+    runpy.run_path(str(EXAMPLE / "sector.py"))["mesh_sector"](str(folder / "sector.msh"), SECTORS, 0.014)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def sector(file):
+    return import_mesh(replace(BLISK, cyclic=CyclicFaces(SECTORS)), file)[0]
 
 
 @pytest.fixture(scope="module")
 def model(sector):
     return reduce_blade(sector, assemble(sector, TITANIUM), TITANIUM, BOUNDARY, REDUCTION, {})
-
-
-@pytest.fixture(scope="module")
-def file(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("file")
-    mesh_sector(folder / "sector.msh", SECTORS)
-    return folder
 
 
 @pytest.mark.parametrize("cyclic", [{"low": "low", "high": "high"}, {"low": "high", "high": "low"}, {"low": "?"}])

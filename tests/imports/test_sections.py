@@ -221,10 +221,17 @@ def test_the_inf_of_turbogrid_is_not_contradicted(settings_with, config_copy, ki
         settings_with(curve_text(fan(), 1e3), "R1_Blade.crv", **yaml.safe_load(changes))
 
 
-def test_a_hub_next_to_a_file_that_may_be_the_shroud_is_a_question(settings_with, config_copy):
-    for name in ("hub.curve", "outer.curve"):
+@pytest.mark.parametrize(
+    ("names", "message"),
+    [
+        (("hub.curve", "outer.curve"), r"tip: found hub\.curve next to the sections, and outer\.curve; give tip: one of them"),
+        (("A_hub.crv", "B_hub.crv"), r"hub: found A_hub\.crv, B_hub\.crv next to the sections; give hub: one of them"),
+    ],
+)
+def test_which_of_two_files_is_a_meridian_is_a_question(settings_with, config_copy, names, message):
+    for name in names:
         (config_copy / "sections" / name).write_text("160 0 -300\n160 0 300\n")
-    with refused(r"found hub\.curve next to the sections, and outer\.curve; give tip: one of them", ConfigError):
+    with refused(rf"Fan\.{message}", ConfigError):
         settings_with(curve_text(fan(), 1e3), "R1_Blade.crv", length_unit="mm")
 
 
@@ -238,13 +245,6 @@ def test_the_unit_of_a_file_is_that_of_the_entry(settings_with):
         settings_with(text, "fan.geomTurbo", **asked)
     with refused(r"length_unit: found m, and mm in the .inf next to the sections, or in their file", ConfigError):
         settings_with(text, "fan.geomTurbo", length_unit="m")
-
-
-def test_several_meridians_next_to_a_profile_are_a_question(settings_with, config_copy):
-    for name in ("A_hub.crv", "B_hub.crv"):
-        (config_copy / "sections" / name).write_text("160 0 -300\n160 0 300\n")
-    with refused(r"Fan\.hub: found A_hub\.crv, B_hub\.crv next to the sections; give hub: one of them", ConfigError):
-        settings_with(curve_text(fan()), "R1_Blade.crv")
 
 
 def test_a_meridian_has_one_radius_at_every_z(settings_with, config_copy):

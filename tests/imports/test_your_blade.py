@@ -158,21 +158,14 @@ def test_matrices_run_to_the_same_response(root, drawn, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("key", "value", "message"),
-    [
-        ("root", "clamp", "root: found no set 'clamp'; with length_unit"),
-        ("rotation", "negative", "found the tip's leading edge at "),
-    ],
-)
-def test_a_refusal_names_its_line_before_anything_long(root, drawn, tmp_path, key, value, message):
+def test_a_refusal_names_its_line_before_anything_long(root, drawn, tmp_path):
     project = with_example(root, drawn, tmp_path, copy_project)
     file = project / "config/blades.yaml"
     lines = file.read_text().splitlines()
-    line = max(i for i, text in enumerate(lines) if text.startswith(f"  {key}: "))
-    lines[line] = f"  {key}: {value}"
+    line = max(i for i, text in enumerate(lines) if text.startswith("  root: "))
+    lines[line] = "  root: clamp"
     file.write_text("\n".join(lines) + "\n")
     said = snakemake(project, "all_blades", "--cores", "1", check=False)
-    place = f"config/blades.yaml:{line + 1}: Fan.{key}: meshes/fan.msh"
-    assert f"rule imported_mesh: {place}: {message}" in said
+    place = f"config/blades.yaml:{line + 1}: Fan.root: meshes/fan.msh"
+    assert f"rule imported_mesh: {place}: root: found no set 'clamp'; with length_unit" in said
     assert not list((project / "results/Fan").glob("*"))
