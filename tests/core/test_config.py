@@ -5,7 +5,8 @@ import sys
 
 import pytest
 import yaml
-from test_refusals import edit
+from refusal_tables import pattern_of, refusal_rows
+from test_refusals import TABLE, edit
 from workflow_runs import overlay
 
 from r37core.base.yaml_file import load_yaml
@@ -40,21 +41,10 @@ def test_the_box_is_of_the_benchmark_and_its_variants(config_copy):
     assert list(left_out.stress_regions("Variant")) == ["airfoil"]
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("70,23.211", "96,23.211", r"rotor37\.csv: blade Ref: span 85%: comes after 96%"),
-        ("0,17.780", "1,17.780", r"the spans run from 1% to 100%"),
-        ("0.032,0.250", "0.032,-0.250", r"span 70%: maximum_thickness is -0\.0025 m; it must be positive"),
-        ("50,21.761", "50,23.300", r"span 70%: the profile crosses the one at span 50%"),
-        ("58.470", "98.470", r"span 70%: inlet_angle is 98\.47 degrees, so \|sin kappa\| passes 1"),
-        ("58.470", "nan", r"line 6, column kappa_ic_deg: 'nan' is not finite"),
-        ("z_oc_cm", "z_xx_cm", r"the table lacks the columns z_oc_cm"),
-    ],
-)
-def test_profile_table_refusals(config_copy, old, new, message):
-    edit(config_copy / "config/profiles/rotor37.csv", old, new)
-    with pytest.raises(ConfigError, match=message):
+@pytest.mark.parametrize(("name", "change", "message"), refusal_rows(TABLE, "rotor37.csv"))
+def test_profile_table_refusals(config_copy, name, change, message):
+    edit(config_copy / "config/profiles" / name, *change.split(" -> "))
+    with pytest.raises(ConfigError, match=pattern_of(message)):
         load(config_copy)
 
 

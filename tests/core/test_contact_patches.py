@@ -6,10 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.linalg as la
+import yaml
 from box_mesh import box_mesh
 from defaults import BoundaryChoice, IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT
 from integration_runs import ENGINES
+from refusal_tables import pattern_of, refusal_rows
+from test_refusals import TABLE
 
 from r37core.config import ConfigError, command_line_document
 from r37core.config.remarks import (
@@ -291,19 +294,11 @@ def test_the_place_that_chose_is_blamed(settings_with):
         raise BoundaryError("no room")
 
 
-@pytest.mark.parametrize(
-    ("blade", "boundary", "message"),
-    [
-        ("Mine", EVEN | {"nodes": 60}, r"nodes: blade 'Mine': found 60 .* at most 43 \("),
-        ("Mine", {"nodes": 60}, r"nodes: blade 'Mine': found 60 .* at most 15 \(.*; or contact: points, spacing: even, or a"),
-        ("Ref", EVEN | {"nodes": 44, "contact": "patches"}, "blade 'Ref': found 44 contact patches on the 85 mesh"),
-        ("Ref", EVEN | {"nodes": 23, "contact": "patches", "tip_line": "camber"}, "found 23 .* 'camber'; .* at most 22"),
-        ("Ref", {"contact": "mortar"}, "contact: found 'mortar'; allowed: one of points, patches"),
-    ],
-)
-def test_what_is_refused_before_anything_is_made(settings_with, blade, boundary, message):
-    with pytest.raises(ConfigError, match=message) as refusal:
-        settings_with(boundary, blades=[blade])
+@pytest.mark.parametrize(("kind", "boundary", "message"), refusal_rows(TABLE, "patches"))
+def test_what_is_refused_before_anything_is_made(settings_with, kind, boundary, message):
+    boundary = yaml.safe_load(boundary)
+    with pytest.raises(ConfigError, match=pattern_of(message)) as refusal:
+        settings_with(boundary, blades=[boundary.pop("blade")])
     assert "\n" not in str(refusal.value)
     # as many as there is room for
     settings_with(EVEN | {"nodes": 43, "contact": "patches"})

@@ -20,6 +20,8 @@ from r37core.config.section import Unique
 from r37core.product.extensions import read_settings
 from r37core.product.schemas import MODELS
 
+TABLE = Path(__file__).with_name("refusals.txt")
+
 
 def edit(file, old, new):
     text = file.read_text()
@@ -67,7 +69,7 @@ def test_what_cannot_be_zero_cannot_be_almost_zero(name):
     assert not re.search(r"'exclusiveMinimum': 0(\.0)?\b", schema)
 
 
-@pytest.mark.parametrize(("kind", "snippet", "message"), refusal_rows(Path(__file__).with_name("refusals.txt")))
+@pytest.mark.parametrize(("kind", "snippet", "message"), refusal_rows(TABLE, "config", "blades", "scenes"))
 def test_what_is_refused_in_a_file(config_copy, kind, snippet, message):
     check_refusal(config_copy, kind, snippet, message)
 

@@ -6,14 +6,13 @@ from box_mesh import box_mesh
 from quadratic_cases import CHOICE, FAR, beam_model, held
 from scipy.linalg import eigh
 
-from r37core.config import ConfigError, command_line_document
+from r37core.config import ConfigError
 from r37core.fem.equilibrium import NoEquilibriumError, Rotation
 from r37core.fem.large_displacement import LargeDisplacement
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.fem.stress import recovered_stress, second_order_stress
-from r37core.product.extensions import read_settings
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
@@ -182,19 +181,6 @@ def test_rotating_has_the_modes_alone(reduced, displaced, steel):
     # nor has its stress products
     operator = stress_operators(model, steel)["box"]
     assert operator.operator.shape[2] == model.size + len(model.rotation_stiffening)
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"structure": {"kinematics": "quadratic"}, "fidelity": "paper"}, "a level of exact_modal"),
-        ({"structure": {"kinematics": "large"}}, "quadratic"),
-        ({"structure": {"kinematics": "quadratic", "quadratic_modes": 7}}, "quadratic_modes"),
-    ],
-)
-def test_what_cannot_be_had_is_refused(root, changes, said):
-    with pytest.raises(ConfigError, match=said):
-        read_settings(root, command_line_document(changes))
 
 
 def test_the_blade_whose_own_kinematics_cannot_be_had_is_named(with_blades):

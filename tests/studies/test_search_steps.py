@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from test_search import BLADES, SEARCH, campbell
+from test_search import BLADES, SEARCH, campbell, folder  # noqa: F401
 from workflow_runs import overlay
 
 from r37core.base.dataset_file import read_dataset, write_dataset
@@ -27,13 +27,6 @@ from r37studies.search.evaluation import Evaluation
 from r37studies.search.plan import Search, simulations
 
 FILE = Recipe.file
-
-
-@pytest.fixture
-def folder(config_copy):
-    overlay(config_copy, "blades.yaml", BLADES)
-    overlay(config_copy, "config.yaml", SEARCH)
-    return config_copy
 
 
 class Simulated(list):
