@@ -5,7 +5,6 @@ from pathlib import Path
 
 import contact_laws
 import numpy as np
-import pandas as pd
 import pytest
 import yaml
 from refusal_tables import pattern_of, refusal_rows
