@@ -1,7 +1,6 @@
-"""Prose of the project: length and words of README and docs/, and docstrings and names that cannot be read alone.
+"""Prose of the project: length and words of README and docs/, and docstrings that cannot be read alone.
 
-Run: python validation/prose.py (one line a page, then counts), with the name of a page for its longest sentences, or with
-`docstrings` or `names` for a list.
+Run: python validation/prose.py (one line a page), with the name of a page for its longest sentences.
 """
 
 import ast
@@ -169,9 +168,6 @@ _QUESTIONS = ("what", "whether", "who")
 _LEANS = {word.capitalize() for word in (*_PREPOSITIONS, *_PRONOUNS, *_PLACES, *_QUESTIONS)}
 """First words of a docstring that has its subject in the line above."""
 
-CONVENTIONAL = {"from_plain", "to_plain", "from_dict", "to_dict"}
-"""Names of conversions that everybody knows."""
-
 
 def _trees(root):
     for file in sorted((root / "src").rglob("*.py")):
@@ -200,30 +196,8 @@ def leaning_docstrings(root=ROOT):
     ]
 
 
-def preposition_names(root=ROOT):
-    """Names that are defined and begin with a preposition, as `file: name`, each once a file."""
-    found = {}
-    for file, tree in _trees(root):
-        for node in ast.walk(tree):
-            names = []
-            if isinstance(node, ast.FunctionDef | ast.ClassDef):
-                names = [node.name]
-            elif isinstance(node, ast.arg):
-                names = [node.arg]
-            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-                names = [node.id]
-            for name in names:
-                if re.match(rf"_?({'|'.join(_PREPOSITIONS)})(_|$)", name) and name.lstrip("_") not in CONVENTIONAL:
-                    found[f"{file}: {name}"] = None
-    return list(found)
-
-
 def main(names):
-    """Print the figures of all pages, or the longest sentences of those that are named, or a list."""
-    lists = {"docstrings": leaning_docstrings(), "names": preposition_names()}
-    for name in lists.keys() & set(names):
-        print("\n".join(lists[name]))
-        return
+    """Print the figures of all pages, and the longest sentences of those that are named."""
     for name, text in pages().items():
         page = prose(text)
         if name in names:
@@ -233,7 +207,7 @@ def main(names):
             length = f"{name:16} {len(page.sentences):4} sentences, {page.mean:5.1f} words,"
             print(length, f"{page.share_of_long:5.1%} over {LONG}{mark}", *forbidden(text))
     print(sum(len(text.split()) for name, text in pages().items() if name != "configuration.md"), "words")
-    print(f"{len(lists['docstrings'])} docstrings begin without their subject, {len(lists['names'])} names with a preposition")
+    print("docstrings that begin without their subject:", *leaning_docstrings(), sep="\n")
 
 
 if __name__ == "__main__":
