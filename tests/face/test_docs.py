@@ -66,7 +66,11 @@ def headings(page):
 
 def test_blades_of_pages_are_accepted(root, readme, config_copy):
     """The mesh is that of the page on imports, without what a first attempt does not know."""
-    mesh, variant = (safe_load(text) for text in re.findall(r"```yaml\n(.*?)```", readme, re.DOTALL))
+    mesh, variant, test = (safe_load(text) for text in re.findall(r"```yaml\n(.*?)```", readme, re.DOTALL))
+    assert (
+        test["measured"][0]
+        in safe_load((root / "docs/measurement.md").read_text().split("```yaml\n")[1].split("```")[0])["measured"]
+    )
     page = safe_load(re.search(r"```yaml\n(.*?)```", (root / "docs/your_blade.md").read_text(), re.DOTALL)[1])
     assert mesh == {"Fan": page["Fan"] | {"root": "?", "tip": "?"}}
     drawn = re.search(r"```yaml\n([^`]*Drawn:.*?)```", (root / "docs/blades.md").read_text(), re.DOTALL)[1]

@@ -6,6 +6,7 @@ from plan.runs import ALL_SPEEDS, MAIN
 
 FIGURES = {
     "interactions": f"{ALL_SPEEDS.folder}/figures/interactions.png",
+    "which_blade_Ref": f"{ALL_SPEEDS.folder}/figures/response_Ref.png",
     "blades": f"{MAIN.folder}/figures/blades.png",
     "response_Ref": f"{MAIN.folder}/figures/response_Ref.png",
 }
