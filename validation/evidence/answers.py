@@ -53,12 +53,15 @@ DRAWN = ("Ref", "S100")
 
 INTERACTIONS = (
     *("blade", "1B/4 at (rad/s)", "1B/6 at (rad/s)", "three longest ranges (rad/s)", "all ranges (rad/s)"),
-    *("largest motion (mm)", "largest from rest"),
+    *("of these near 1B/4, 1B/6 (rad/s)", "largest motion (mm)", "largest from rest"),
 )
 """Columns of the tables of interactions: dangerous ranges on the lining; without it sustained ones, by the worst motion."""
 
 MOTION = ("largest motion (mm)", "at (rad/s)", "dangerous / unknown / sustained (rad/s)")
 """Columns of the table of large motion, for each contact."""
+
+NEAR = (0.98, 1.08)
+"""What is near a crossing, as shares of its speed."""
 
 _LONGEST = 3
 _NEUTRAL = "#767676"  # letters and lines that can be read on a white and on a dark page
@@ -158,8 +161,14 @@ def interactions(input: Any, output: Any, params: Any) -> None:
             largest = 1e3 * max(motion(response).max(), float(motions.sel(blade=blade, scene=scene)["motion_mean"].max()))
             crossings = campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=[4, 6]).values
             rows.append([blade, *(f"{crossing:.0f}" for crossing in crossings), words])
-            rows[-1] += [f"{length_of(ranges):.0f}", f"{largest:.1f}", *(_titles(top) or ["-"])]
+            near = sum(_common(part, *(share * crossing for share in NEAR)) for part in ranges for crossing in crossings)
+            rows[-1] += [f"{length_of(ranges):.0f}", f"{near:.0f}", f"{largest:.1f}", *(_titles(top) or ["-"])]
         write_table(list(INTERACTIONS), rows, file)
+
+
+def _common(part: SpeedRange, begin: float, end: float) -> float:
+    """Length (rad/s) that a range has in common with speeds from `begin` to `end`."""
+    return max(0.0, min(part.end, end) - max(part.begin, begin))
 
 
 def _named(part: SpeedRange, interactions: pd.DataFrame, column: str) -> str:
