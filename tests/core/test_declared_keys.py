@@ -75,6 +75,7 @@ ENTRY = {
 SAME = {
     "casing.clearance_m": 5e-4,
     "casing.lobes": 6,
+    "friction.heat_share": 0.3,
     "casing.width": 0.11,
     "casing.rise_fraction": 0.6,
     "casing.rise_revolutions": 30,

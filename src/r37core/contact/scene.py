@@ -10,9 +10,6 @@ from r37core.base.declared import Key, speed_keys
 
 from .casing import Casing
 
-HEAT_SHARE = 0.1
-"""Share of the friction's heat that enters the tip where a scene has no other."""
-
 
 @dataclass(frozen=True)
 class Rotor:
@@ -132,7 +129,7 @@ class Friction:
     ] = True
     heat_share: Annotated[
         float, Key("Share of the friction's heat that enters the tip, which melts by it; the rest wears off", ge=1e-3, le=1)
-    ] = HEAT_SHARE
+    ] = 0.1
 
 
 @dataclass(frozen=True)

@@ -498,7 +498,7 @@
   const offered = {
     state, set, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
     // limits of the model that runs of a blade in a scene leave before they pass yield
-    causes: (blade, scene) => data.danger[data.blades.indexOf(blade)][data.scenes.indexOf(scene)].causes,
+    causes: (blade, scene) => data.danger[data.blades.indexOf(blade)]?.[data.scenes.indexOf(scene)]?.causes ?? "",
     // rows of the verdict, of a run with requirements
     requirements: data.panels?.requirements?.requirements ?? [],
   };

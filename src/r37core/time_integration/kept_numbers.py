@@ -9,7 +9,7 @@ from numpy.fft import rfft  # NumPy imports it when it is used, which would be i
 from r37core.contact.casing import casing_axes
 from r37core.contact.laws import lines_of_bar, used_thickness, wear_at_the_casing
 from r37core.contact.ring import RingMotion
-from r37core.contact.scene import HEAT_SHARE, Friction, Lining, Scene
+from r37core.contact.scene import Friction, Lining, Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator, StressOperators, judged_operator
@@ -26,9 +26,9 @@ from .status import RunStatus
 _WEAR_LOBES = 20
 _ROUND_OFF = 1e-9
 """Relative margin of a bar's penetration at the casing; the compiled code has the same."""
-MELTING = 2.8e5
-"""Power of friction (W) per length of tip (m) that melts 4 mm2 of its section in a second: HEAT_SHARE of it enters the blade,
-and steel takes 7 GJ/m3 until it is molten (3.8 MJ/(m3 K) over 1,400 K, and 1.7 GJ/m3)."""
+MELTING = 2.8e4
+"""Heat per second (W) and length of tip (m) that melts 4 mm2 of its section in a second: steel takes 7 GJ/m3 until it is molten
+(3.8 MJ/(m3 K) over 1,400 K, and 1.7 GJ/m3)."""
 KEPT = LEADING_EDGE
 """Directions of the spectrum."""
 
@@ -213,8 +213,7 @@ def energy_balance(work: float, loss: float, change: float, stiffness_work: floa
 
 def melting_power(model: ContactModel, friction: Friction | None) -> float:
     """Power of the friction (W) of which the share that enters the tip melts it in a second."""
-    more = HEAT_SHARE / friction.heat_share if friction else 1.0
-    return float(MELTING * model.tip_lengths.sum() * more)
+    return float(MELTING / (friction.heat_share if friction else 1.0) * model.tip_lengths.sum())
 
 
 def limit_numbers(run: FinishedRun, totals: ndarray) -> dict[str, Any]:

@@ -61,7 +61,7 @@ panels.designs = (families, page) => {
       z: grid((cell) => cell[4]), zmin: 0, colorscale: page.MAGMA, zsmooth: false, hoverinfo: "text", texttemplate: "%{text}",
       text: grid((cell) => (Number.isFinite(cell[4]) ? `${bracket(cell[4], cell[5])}${marks(cell)}` : "")),
       hovertext: grid(([blade, scene, , , value, unknown]) => `${blade} in ${scene}<br>${label}: ${digits(value, 3)}`
-        + `${unknown ? `<br>unknown at ${digits(unknown, 3)} rad/s more: the model is left first, by ${page.causes(blade, scene)}` : ""}${meets([blade, scene]) ? "<br>meets all requirements" : ""}`),
+        + `${unknown ? `<br>unknown at ${digits(unknown, 3)} rad/s more: the model is left first ${page.causes(blade, scene)}` : ""}${meets([blade, scene]) ? "<br>meets all requirements" : ""}`),
       colorbar: { title: { text: `${family}: ${label}`, side: "right" }, thickness: 12 },
     };
     const plan = layout(axis(acrossTitle, { type: "category" }), axis(upTitle, { type: "category" }), {
