@@ -12,15 +12,13 @@ from matplotlib.axes import Axes
 from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
 from r37core.results.closing import interaction_title
-from r37core.results.columns import LENGTHS, MOST_REVOLUTIONS, names
+from r37core.results.columns import LENGTHS, names
 from r37core.results.danger import ranges_of
 from r37core.results.exceedance import SpeedRange, joined, length_of
 from r37core.results.measures import motion
-from r37core.results.other_motions import swept
 from r37core.results.ranking import read_ranking
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
-from r37studies.second_motions.added import worst_exceedance
 
 from .tables import danger_cell, write_table
 
@@ -29,18 +27,14 @@ SCENES = {BARE: "bare casing", LINING: "abradable lining"}
 TRIED = {"twice": "twice as long", "friction": "0.1% more friction", "elastic": "flexible casing"}
 """Scenes of the cases by the beginning of their names, and what they vary."""
 
-DRAWN_LENGTHS = {
-    **dict(zip(names(LENGTHS), ("dangerous", "unknown", "sustained"), strict=True)),
-    "length_most_revolutions_worst_rad_s": "sustained, worst motion",
-}
+DRAWN_LENGTHS = dict(zip(names(LENGTHS), ("dangerous", "unknown", "sustained"), strict=True))
 """Column of the ranking, and its name in the table."""
 
 SUSTAINED = {
-    "worst motion": "length_most_revolutions_worst_rad_s",
     "box at the root": "length_most_revolutions_box_rad_s",
     "modes above 7.5 kHz, too": "length_most_revolutions_airfoil_unfiltered_rad_s",
 }
-"""Sustained lengths by another motion or in another region of the stress."""
+"""Sustained lengths in another region of the stress."""
 
 GRIDS = {LINING: "every 10 rad/s about 1B/4", BARE: "every 50 rad/s"}
 """Speeds of the runs that vary something."""
@@ -53,9 +47,9 @@ DRAWN = ("Ref", "S100")
 
 INTERACTIONS = (
     *("blade", "1B/4 at (rad/s)", "1B/6 at (rad/s)", "three longest ranges (rad/s)", "all ranges (rad/s)"),
-    *("of these near 1B/4, 1B/6 (rad/s)", "largest motion (mm)", "largest from rest"),
+    *("of these near 1B/4, 1B/6 (rad/s)", "largest motion (mm)", "largest at"),
 )
-"""Columns of the tables of interactions: dangerous ranges on the lining; without it sustained ones, by the worst motion."""
+"""Columns of the tables of interactions: dangerous ranges on the lining; without it sustained ones."""
 
 MOTION = ("largest motion (mm)", "at (rad/s)", "dangerous / unknown / sustained (rad/s)")
 """Columns of the table of large motion, for each contact."""
@@ -91,7 +85,7 @@ def draw(input: Any, output: Any, params: Any) -> None:
 
 def _bars(axes: Axes, lengths: pd.DataFrame) -> None:
     """A bar of dangerous speeds for each blade, that of unknown ones behind it, and a mark at the sustained ones."""
-    dangerous, unknown, sustained, _ = (lengths[column] for column in DRAWN_LENGTHS)
+    dangerous, unknown, sustained = (lengths[column] for column in DRAWN_LENGTHS)
     places = np.arange(len(lengths), dtype=float)
     axes.barh(places, dangerous, 0.6, color="#D55E00", label="dangerous")
     axes.barh(places, unknown, 0.6, dangerous, label="unknown", **style.UNKNOWN | {"edgecolor": _NEUTRAL})
@@ -139,26 +133,19 @@ def _change_of(file: str) -> tuple[str, str]:
 
 
 def interactions(input: Any, output: Any, params: Any) -> None:
-    """Longest ranges: dangerous ones, or sustained ones by the worst motion or, if longer in all, from rest at all speeds.
-
-    Inputs: motions, summary, campbell, base, responses from rest. Outputs: lining, bare, tables.
-    """
-    motions, campbell = read_dataset(input.motions), read_dataset(input.campbell)
-    summary = read_table(input.summary)
-    from_rest = {(_blade_of(file), _scene_of(file)): read_judged(file) for file in input.base}
+    """Longest dangerous or sustained ranges. Inputs: summary, campbell, base (responses). Outputs: lining, bare (tables)."""
+    campbell, summary = read_dataset(input.campbell), read_table(input.summary)
+    responses = {(_blade_of(file), _scene_of(file)): read_judged(file) for file in input.base}
     for scene, file in ((LINING, output.lining), (BARE, output.bare)):
         rows = []
-        for blade in _blades(motions):
-            response = from_rest[blade, scene]
-            found = [ranges_of(response)[LISTED[scene]]]
-            if scene == BARE:
-                found.append(worst_exceedance(swept(motions.sel(blade=blade, scene=scene))).ranges(MOST_REVOLUTIONS))
-            ranges = joined(max(found, key=length_of))
+        for blade in dict.fromkeys(blade for blade, _ in responses):
+            response = responses[blade, scene]
+            ranges = joined(ranges_of(response)[LISTED[scene]])
             longest = sorted(sorted(ranges, key=lambda part: -part.length)[:_LONGEST], key=lambda part: part.begin)
             own = summary[(summary["blade"] == blade) & (summary["scene"] == scene)]
             words = ", ".join(f"{part.begin:.0f} to {part.end:.0f} ({_named(part, own, LISTED[scene])})" for part in longest)
             top = own.sort_values("peak_motion_m").tail(1)
-            largest = 1e3 * max(motion(response).max(), float(motions.sel(blade=blade, scene=scene)["motion_mean"].max()))
+            largest = 1e3 * motion(response).max()
             crossings = campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=[4, 6]).values
             rows.append([blade, *(f"{crossing:.0f}" for crossing in crossings), words])
             near = sum(_common(part, *(share * crossing for share in NEAR)) for part in ranges for crossing in crossings)
@@ -224,10 +211,6 @@ def _write(cells: pd.DataFrame, file: str) -> None:
     write_table(
         ["blade", *cells], [[str(blade), *row] for blade, row in zip(cells.index, cells.values.tolist(), strict=True)], file
     )
-
-
-def _blades(motions: xr.Dataset) -> list[str]:
-    return [str(blade) for blade in motions["blade"].values]
 
 
 def _blade_of(file: str) -> str:

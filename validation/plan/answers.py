@@ -63,7 +63,6 @@ EVIDENCE = [
         "evidence.answers.interactions",
         {"lining": table("interactions_lining"), "bare": table("interactions_bare")},
         {
-            "motions": f"{ALL_SPEEDS.folder}/second_motions.nc",
             "campbell": f"{ALL_SPEEDS.folder}/campbell.nc",
             "summary": f"{ALL_SPEEDS.folder}/summary.csv",
             "base": ALL_SPEEDS.responses(BLADES, *SCENES),
