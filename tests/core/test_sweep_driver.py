@@ -51,7 +51,8 @@ def run_speeds(monkeypatch, tmp_path):
             stream.write(f"{speed}\n")
         rms = json.loads(task).get("height", 1.0) / (1.0 + (float(speed) / 10.0 - 104.0) ** 2)
         both = dict.fromkeys(("rms_normal", "rms_tangential"), np.full(2, rms))
-        write_speed({"status": np.array(0), **both}, output, json.loads(about))
+        history = {"revolution_maximum": np.zeros((1, 2)), "revolution_von_mises": np.zeros((1, 1))}
+        write_speed({"status": np.array(0), **both, **history}, output, json.loads(about))
 
     monkeypatch.setattr(parts, "run_job", peak)
     monkeypatch.setattr(driver, "write_response", lambda files, speeds, file, **_: response(speeds).to_netcdf(file) or file)

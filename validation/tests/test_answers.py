@@ -15,9 +15,7 @@ BLADES = ("Ref", "S100")
 def test_lengths_are_those_of_the_ranking(tmp_path):
     others = dict.fromkeys(columns.names((*columns.RANKING, *columns.ROBUSTNESS)), 0)
     rows = [
-        others
-        | {"blade": blade, "scene": scene}
-        | dict(zip(answers.DRAWN_LENGTHS, (10.0 + place, 200.0, 30.0), strict=True))
+        others | {"blade": blade, "scene": scene} | dict(zip(answers.DRAWN_LENGTHS, (10.0 + place, 200.0, 30.0), strict=True))
         for place, scene in enumerate(answers.SCENES)
         for blade in BLADES
     ]

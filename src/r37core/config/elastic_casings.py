@@ -26,14 +26,14 @@ def waves_are_simulated(settings: Settings, scene: str, fastest: float) -> None:
     if ring is None or ring.highest_nodal_diameter >= (needed := nodal_diameters_for(ring, fastest)):
         return
     share = flexibility_of(ring.modes()) / flexibility(ring)
-    found = f"{ring.highest_nodal_diameter} nodal diameters, {share:.1%} of the ring's static flexibility"
+    shown = f"{ring.highest_nodal_diameter} nodal diameters, {share:.1%} of the ring's static flexibility"
     rule = f"for {ENOUGH:.0%} and all waves that the rotor overtakes up to {fastest:g} rad/s"
     allowed = f"{needed} or more, or leave it out, {rule}"
     if needed > MOST_NODAL_DIAMETERS:
         allowed = (
             f"at most {MOST_NODAL_DIAMETERS}, and {needed} are needed {rule}: a thicker ring, or the ring_modes that count"
         )
-    raise settings.scene_designs.document.refusal(found, allowed, scene, "casing", "ring", "highest_nodal_diameter")
+    raise settings.scene_designs.document.refusal(shown, allowed, scene, "casing", "ring", "highest_nodal_diameter")
 
 
 def remarks_on_overtaken_waves(scene: str, casing: ElasticCasing, fastest: float) -> Iterator[str]:
