@@ -31,7 +31,7 @@ test: $(VENV)/.ready ## all tests
 	$(BIN)/python -m pytest $(TESTS) $(SPREAD) $(if $(RECORD),--record-durations)
 
 test-fast: $(VENV)/.ready ## the tests that neither run Snakemake nor build larger models
-	$(BIN)/python -m pytest -q -m 'not slow' $(SPREAD)
+	$(BIN)/python -m pytest -q -m 'not slow' $(TESTS) $(SPREAD)
 
 # a sample, and what they missed; MUTANTS='results/stress_recovery.py --each 20' for one module
 mutants: $(VENV)/.ready ## whether the tests notice small changes of the code: about half an hour
